@@ -1,0 +1,8 @@
+"""Errors the package raises at its edges."""
+
+
+class RollerSimError(Exception):
+    """Base of all errors of this package: one clear sentence, fit to be shown to the user.
+
+    The message names the parameter or file, the value, the bound and the way out.
+    """

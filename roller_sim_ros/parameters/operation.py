@@ -1,0 +1,109 @@
+"""How a run is sampled, paced, metered and recorded."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import ClassVar
+
+from roller_sim_ros.parameters.quantity import ParameterError, ParameterGroup, parameter
+
+SAMPLES_PER_REVOLUTION = 128
+
+
+@dataclass(frozen=True)
+class Sampling(ParameterGroup):
+    """Samples per revolution and what happens at low speed."""
+
+    group: ClassVar[str] = "sampling"
+
+    samples_per_revolution: int = parameter(
+        SAMPLES_PER_REVOLUTION,
+        "",
+        "samples per revolution of the eccentric; other than 128 is for convergence studies only",
+        minimum=32,
+        maximum=4096,
+        flag="--samples-per-rev",
+    )
+    floor_hz: float = parameter(
+        10.0,
+        "Hz",
+        "below this frequency the sample period stays and the phase advances more slowly",
+        minimum=1.0,
+        maximum=80.0,
+    )
+
+
+@dataclass(frozen=True)
+class Meter(ParameterGroup):
+    """The compaction meter."""
+
+    group: ClassVar[str] = "meter"
+
+    window_revolutions: int = parameter(
+        16, "", "revolutions per meter value, an even number", minimum=2, maximum=256
+    )
+    noise_floor_m_s2: float = parameter(
+        0.05,
+        "m/s²",
+        "amplitude at the excitation frequency below which there is no meter value",
+        minimum=0.0,
+        maximum=100.0,
+    )
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        if self.window_revolutions % 2:
+            raise ParameterError(
+                "meter.window_revolutions", self.window_revolutions, "must be an even number"
+            )
+
+
+@dataclass(frozen=True)
+class Pacing(ParameterGroup):
+    """Real-time pacing of the node."""
+
+    group: ClassVar[str] = "pacing"
+
+    samples_per_message: int = parameter(
+        16, "", "samples per block, a divisor of 128", minimum=1, maximum=SAMPLES_PER_REVOLUTION
+    )
+    imu_decimation: int = parameter(
+        1, "", "every how many samples one drum/imu message is sent", minimum=1, maximum=128
+    )
+    realtime_priority: int = parameter(
+        0,
+        "",
+        "SCHED_FIFO priority tried for the pacing thread; 0: not tried",
+        minimum=0,
+        maximum=98,
+    )
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        if SAMPLES_PER_REVOLUTION % self.samples_per_message:
+            raise ParameterError(
+                "pacing.samples_per_message",
+                self.samples_per_message,
+                f"must be a divisor of {SAMPLES_PER_REVOLUTION}",
+            )
+
+
+@dataclass(frozen=True)
+class Recording(ParameterGroup):
+    """The trace on disk."""
+
+    group: ClassVar[str] = "recording"
+
+    path: str = parameter("", "", "MCAP file to record to; empty: no recording", flag="--record")
+    topics: str = parameter(
+        "",
+        "",
+        "further topics to record, separated by commas (a meter under test)",
+    )
+    flush_period_s: float = parameter(
+        0.5,
+        "s",
+        "an open chunk is written to disk at least this often",
+        minimum=0.05,
+        maximum=1.0,
+    )

@@ -1,0 +1,149 @@
+"""A parameter as it is declared once: value, unit, bounds, doc, command-line flag.
+
+Everything that shows or checks a parameter (ROS descriptors, YAML files, `--help`, the docs table) is
+made from these declarations; no other place repeats a default or a bound.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from dataclasses import Field, dataclass, field, fields
+from typing import Any, ClassVar, cast
+
+from roller_sim_ros.errors import RollerSimError
+
+Value = bool | int | float | str
+
+_KEY = "roller_sim_ros.quantity"
+
+
+class ParameterError(RollerSimError):
+    """A parameter has a value it cannot have.
+
+    Attributes
+    ----------
+    name : str
+        Full name of the parameter, as in ``soil.shear_modulus_pa``.
+    value : object
+        The refused value.
+    """
+
+    def __init__(self, name: str, value: object, reason: str) -> None:
+        super().__init__(f"{name} = {value!r}: {reason}")
+        self.name = name
+        self.value = value
+
+
+@dataclass(frozen=True)
+class Quantity:
+    """What is known of one parameter beside its value.
+
+    Attributes
+    ----------
+    unit : str
+        SI unit, ``""`` for pure numbers and ``"text"`` is never used: strings have no unit.
+    doc : str
+        One sentence, shown wherever the parameter is shown.
+    minimum, maximum : float or None
+        Inclusive bounds.
+    choices : tuple of str
+        The allowed texts; empty when any is allowed.
+    live : bool
+        Whether it may change while the roller runs (at the next multiple of 128 samples).
+    flag : str
+        Command-line flag in engineering units, ``""`` when there is none.
+    scale : float
+        SI value of one engineering unit of the flag.
+    flag_unit : str
+        The engineering unit.
+    """
+
+    unit: str
+    doc: str
+    minimum: float | None = None
+    maximum: float | None = None
+    choices: tuple[str, ...] = ()
+    live: bool = False
+    flag: str = ""
+    scale: float = 1.0
+    flag_unit: str = ""
+
+    def bounds_text(self) -> str:
+        """Return the bounds as a reader wants them, in SI units."""
+        if self.choices:
+            return " | ".join(self.choices)
+        unit = f" {self.unit}" if self.unit else ""
+        if self.minimum is not None and self.maximum is not None:
+            return f"{self.minimum:g} … {self.maximum:g}{unit}"
+        if self.minimum is not None:
+            return f"at least {self.minimum:g}{unit}"
+        if self.maximum is not None:
+            return f"at most {self.maximum:g}{unit}"
+        return "any"
+
+
+def parameter(default: Value, unit: str, doc: str, **facts: Any) -> Any:
+    """Declare a field of a `ParameterGroup`; `facts` are the other attributes of `Quantity`."""
+    return field(default=default, metadata={_KEY: Quantity(unit=unit, doc=doc, **facts)})
+
+
+def check(name: str, quantity: Quantity, default: Value, value: object) -> Value:
+    """Return `value` as the type of `default`, or raise.
+
+    Raises
+    ------
+    ParameterError
+        If the type is wrong, the number is not finite or out of bounds, or the text is no choice.
+    """
+    if isinstance(default, bool):
+        if not isinstance(value, bool):
+            raise ParameterError(name, value, "must be true or false")
+        return value
+    if isinstance(default, str):
+        if not isinstance(value, str):
+            raise ParameterError(name, value, "must be a text")
+        if quantity.choices and value not in quantity.choices:
+            raise ParameterError(name, value, f"must be one of {', '.join(quantity.choices)}")
+        return value
+    if isinstance(value, bool) or not isinstance(value, int | float):
+        raise ParameterError(name, value, "must be a number")
+    if isinstance(default, int) and float(value) != int(value if math.isfinite(value) else 0):
+        raise ParameterError(name, value, "must be a whole number")
+    if not math.isfinite(value):
+        raise ParameterError(name, value, "must be finite")
+    unit = f" {quantity.unit}" if quantity.unit else ""
+    if quantity.minimum is not None and value < quantity.minimum:
+        raise ParameterError(name, value, f"must be at least {quantity.minimum:g}{unit}")
+    if quantity.maximum is not None and value > quantity.maximum:
+        raise ParameterError(name, value, f"must be at most {quantity.maximum:g}{unit}")
+    return int(value) if isinstance(default, int) else float(value)
+
+
+@dataclass(frozen=True)
+class ParameterGroup:
+    """Base of the parameter dataclasses: checked once, on construction.
+
+    Raises
+    ------
+    ParameterError
+        On construction, if a value breaks its declaration.
+    """
+
+    group: ClassVar[str] = ""
+
+    def __post_init__(self) -> None:
+        for name, quantity, default in declared(type(self)):
+            value = check(f"{self.group}.{name}", quantity, default, getattr(self, name))
+            object.__setattr__(self, name, value)
+
+
+def declared(group: type[ParameterGroup]) -> Iterator[tuple[str, Quantity, Value]]:
+    """Yield (name, quantity, default) of each parameter of a group, in the order of declaration."""
+    for item in fields(group):
+        yield item.name, quantity_of(item), cast(Value, item.default)
+
+
+def quantity_of(item: Field[Any]) -> Quantity:
+    """Return the declaration that `parameter` attached to a dataclass field."""
+    return cast(Quantity, item.metadata[_KEY])
