@@ -1,0 +1,7 @@
+"""The exciter: what is commanded, how the drive follows, what force results."""
+
+from roller_sim_ros.exciter.direction import DIRECTIONS, Direction
+from roller_sim_ros.exciter.force import exciter_motion
+from roller_sim_ros.exciter.revolution import ExciterDrive, Revolution
+
+__all__ = ["DIRECTIONS", "Direction", "ExciterDrive", "Revolution", "exciter_motion"]
