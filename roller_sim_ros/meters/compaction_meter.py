@@ -1,0 +1,230 @@
+"""The compaction meter: CMV, RMV, period and mode from published samples, once a revolution.
+
+It works on nothing but what a subscriber receives (float32 samples, timing and eccentric phase), so
+any client that feeds it the same samples gets the same numbers to the last bit, whatever the size
+of the blocks. Quantities that are not known are NaN (period and mode: 0), never 0, and the status
+says why.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from roller_sim_ros.meters.flight import lifts
+from roller_sim_ros.meters.harmonics import HarmonicsWindow
+from roller_sim_ros.meters.mode import Mode, metered_mode
+from roller_sim_ros.meters.period import PeriodWindow
+from roller_sim_ros.meters.registry import ORDERS, evaluate
+from roller_sim_ros.meters.revolutions import (
+    SAME_PHASE_SAMPLES,
+    Loss,
+    Revolution,
+    RevolutionCollector,
+    Timing,
+)
+from roller_sim_ros.meters.status import Status
+from roller_sim_ros.parameters import SAMPLES_PER_REVOLUTION
+
+STEADY_FREQUENCY = 1e-9
+"""Relative difference below which two frequencies are the same."""
+
+
+@dataclass(frozen=True)
+class MeterValue:
+    """What the meter says at the end of a revolution.
+
+    Attributes
+    ----------
+    last_sample : int
+        Index of the last sample of the window.
+    window_revolutions : int
+        Revolutions in the window.
+    cmv, rmv : float
+        Meter values; NaN when unknown.
+    excitation_frequency : float
+        At the last sample, Hz.
+    fundamental_amplitude : float
+        A_1 of the vertical acceleration, m/s²; NaN when unknown.
+    fundamental_phase : float
+        θ in (−π, π]: the fundamental is A_1 sin(φ + θ), φ the eccentric's phase, whose vertical
+        force goes with sin φ. A free drum has 0; negative: the acceleration lags the eccentric. NaN
+        when unknown or below the noise floor.
+    period : int
+        1, 2, 4 or 8 revolutions; 0: none, or unknown when the mode is UNKNOWN too.
+    mode : Mode
+        Operating mode as far as the acceleration tells it.
+    status : Status
+        Why something is unknown.
+    """
+
+    last_sample: int
+    window_revolutions: int
+    cmv: float
+    rmv: float
+    excitation_frequency: float
+    fundamental_amplitude: float
+    fundamental_phase: float
+    period: int
+    mode: Mode
+    status: Status
+
+
+class CompactionMeter:
+    """Streaming meter; `feed` it blocks, it returns a value for each completed revolution.
+
+    A value comes every N samples also while the exciter stands or runs below the sampling floor,
+    where N samples are no revolution: with NaN and the status STANDING or WINDOW_FILLING. A
+    revolution of which samples are missing gives no value; the window begins anew after it, with
+    GAP until it is full.
+
+    Parameters
+    ----------
+    window_revolutions : int
+        Even number of revolutions per value.
+    noise_floor_m_s2 : float
+        A_1 below which there is no value.
+    samples_per_revolution : int
+        N.
+
+    Raises
+    ------
+    ValueError
+        If `window_revolutions` is not a positive even number.
+    """
+
+    def __init__(
+        self,
+        window_revolutions: int = 16,
+        noise_floor_m_s2: float = 0.05,
+        samples_per_revolution: int = SAMPLES_PER_REVOLUTION,
+    ) -> None:
+        if window_revolutions < 2 or window_revolutions % 2:
+            raise ValueError(
+                f"window_revolutions = {window_revolutions}: must be a positive even number"
+            )
+        self.window_revolutions = window_revolutions
+        self.noise_floor_m_s2 = noise_floor_m_s2
+        self._collector = RevolutionCollector(
+            1, window_revolutions * samples_per_revolution, samples_per_revolution
+        )
+        self._harmonics = HarmonicsWindow(window_revolutions, ORDERS, samples_per_revolution)
+        self._period = PeriodWindow(window_revolutions, samples_per_revolution)
+        self._frequencies = np.zeros(window_revolutions)
+        self._samples_per_revolution = samples_per_revolution
+        self._phase_rad = 0.0
+        self._gap = False
+
+    def feed(
+        self,
+        first_sample: int,
+        vertical: NDArray[np.float32],
+        sample_period_s: float,
+        excitation_hz: float,
+        eccentric_phase_rad: float,
+        phase_increment_rad: float,
+    ) -> list[MeterValue]:
+        """Take one block as published and return the values of the revolutions that it completes.
+
+        Parameters
+        ----------
+        first_sample : int
+            Index of the first sample (``sequence`` of the message).
+        vertical : ndarray of float32, shape (n,)
+            Vertical acceleration, m/s², up positive; coordinate acceleration or specific force.
+        sample_period_s, excitation_hz : float
+            Sample period and excitation frequency.
+        eccentric_phase_rad : float
+            Phase of the eccentric at the first sample.
+        phase_increment_rad : float
+            Phase from sample to sample.
+        """
+        timing = Timing(sample_period_s, excitation_hz, phase_increment_rad)
+        values = []
+        for item in self._collector.feed(
+            first_sample, np.reshape(vertical, (1, -1)), timing, eccentric_phase_rad
+        ):
+            if isinstance(item, Loss):
+                self._clear()
+                self._gap = True
+            else:
+                values.append(self._value(item))
+        return values
+
+    def _value(self, revolution: Revolution) -> MeterValue:
+        if revolution.synchronous:
+            self._push(revolution)
+        else:
+            self._clear()
+        last_sample = revolution.first_sample + self._samples_per_revolution - 1
+        if not self._harmonics.full:
+            standing = revolution.excitation_hz <= 0.0
+            status = Status.STANDING if standing else Status.WINDOW_FILLING
+            if self._gap:
+                status |= Status.GAP
+            return self._unknown(last_sample, revolution.excitation_hz, status)
+        self._gap = False
+        return self._known(last_sample, revolution.excitation_hz)
+
+    def _known(self, last_sample: int, excitation_hz: float) -> MeterValue:
+        """Return the value of a full window."""
+        status = Status.NONE
+        spread = float(self._frequencies.max() - self._frequencies.min())
+        if spread > STEADY_FREQUENCY * excitation_hz:
+            status |= Status.FREQUENCY_CHANGING
+        harmonics = self._harmonics.harmonics()
+        amplitude = harmonics.amplitude(1.0)
+        if amplitude == 0.0 or amplitude < self.noise_floor_m_s2:
+            status |= Status.BELOW_NOISE
+            return self._unknown(last_sample, excitation_hz, status, amplitude)
+        values = evaluate(harmonics)
+        period = None if Status.FREQUENCY_CHANGING in status else self._period.period()
+        lifting = lifts(self._period.mean_revolution()) if period == 1 else None
+        return MeterValue(
+            last_sample=last_sample,
+            window_revolutions=self.window_revolutions,
+            cmv=values["cmv"],
+            rmv=values["rmv"],
+            excitation_frequency=excitation_hz,
+            fundamental_amplitude=amplitude,
+            fundamental_phase=harmonics.phase(1.0),
+            period=period or 0,
+            mode=metered_mode(lifting, period),
+            status=status,
+        )
+
+    def _unknown(
+        self, last_sample: int, excitation_hz: float, status: Status, amplitude: float = math.nan
+    ) -> MeterValue:
+        return MeterValue(
+            last_sample=last_sample,
+            window_revolutions=self.window_revolutions,
+            cmv=math.nan,
+            rmv=math.nan,
+            excitation_frequency=excitation_hz,
+            fundamental_amplitude=amplitude,
+            fundamental_phase=math.nan,
+            period=0,
+            mode=Mode.UNKNOWN,
+            status=status,
+        )
+
+    def _push(self, revolution: Revolution) -> None:
+        """Add a revolution; one whose phase does not follow from the last begins a new window."""
+        turn = 2.0 * math.pi
+        apart = (revolution.phase_rad - self._phase_rad) % turn
+        if min(apart, turn - apart) > SAME_PHASE_SAMPLES * turn / self._samples_per_revolution:
+            self._clear()
+        self._phase_rad = revolution.phase_rad
+        index = revolution.first_sample // self._samples_per_revolution
+        samples = revolution.samples[0]
+        self._harmonics.push(samples, index, revolution.phase_rad)
+        self._period.push(samples)
+        self._frequencies[index % self.window_revolutions] = revolution.excitation_hz
+
+    def _clear(self) -> None:
+        self._harmonics.clear()
+        self._period.clear()

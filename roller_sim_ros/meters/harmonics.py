@@ -1,0 +1,205 @@
+"""Amplitudes at multiples of the excitation frequency, over a sliding window of whole revolutions.
+
+With a fixed number of samples per revolution of the eccentric the analysis is exact in orders: an
+order q whose cycles fit the window (q × revolutions is a whole number) is a bin of the window's
+DFT, so no other order leaks into it, whatever the excitation frequency. Order 0.5 needs an even
+number of revolutions.
+
+The amplitude of order q is defined as ``C_q = (2 / M) Σ a_n exp(−i q φ_n)`` over the M samples of
+the window, φ the phase of the eccentric. Each revolution is projected once; the window's sums are
+formed anew, oldest revolution first, so a value depends on nothing but the samples of its window: a
+stream and a batch give the same bits.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from roller_sim_ros.parameters import SAMPLES_PER_REVOLUTION
+
+METER_ORDERS = (0.5, 1.0, 2.0)
+"""Orders that CMV and RMV need."""
+
+
+@dataclass(frozen=True)
+class Harmonics:
+    """Complex amplitudes of the vertical acceleration at some orders of the excitation.
+
+    Attributes
+    ----------
+    orders : tuple of float
+        Multiples of the excitation frequency.
+    amplitudes : ndarray of complex128, shape (len(orders),)
+        C_q, m/s², in the order of `orders`.
+    """
+
+    orders: tuple[float, ...]
+    amplitudes: NDArray[np.complex128]
+
+    def amplitude(self, order: float) -> float:
+        """Return A_order = |C_order|, in m/s²."""
+        value = self.amplitudes[self.orders.index(order)]
+        return math.hypot(value.real, value.imag)
+
+    def phase(self, order: float) -> float:
+        """Return θ in (−π, π] so that the component is A sin(q φ + θ), φ the eccentric's phase.
+
+        The vertical force of the eccentric goes with sin φ: a free drum has θ = 0 at order 1, and a
+        negative θ is an acceleration that lags the eccentric.
+        """
+        value = self.amplitudes[self.orders.index(order)]
+        return math.atan2(value.real, -value.imag)
+
+
+class HarmonicsWindow:
+    """Sliding window of whole revolutions; `push` one revolution, read `harmonics`.
+
+    Parameters
+    ----------
+    window_revolutions : int
+        Revolutions in the window.
+    orders : sequence of float
+        Orders of interest; each times `window_revolutions` must be a whole number.
+    samples_per_revolution : int
+        N, samples in one revolution.
+
+    Raises
+    ------
+    ValueError
+        If an order is no bin of the window or lies at or above the Nyquist order N/2.
+    """
+
+    def __init__(
+        self,
+        window_revolutions: int,
+        orders: Sequence[float] = METER_ORDERS,
+        samples_per_revolution: int = SAMPLES_PER_REVOLUTION,
+    ) -> None:
+        if window_revolutions < 1:
+            raise ValueError(f"window_revolutions = {window_revolutions}: must be at least 1")
+        for order in orders:
+            if not (order * window_revolutions).is_integer():
+                raise ValueError(
+                    f"order {order:g} is no whole number of cycles in {window_revolutions} revolutions"
+                )
+            if not 0.0 < order < samples_per_revolution / 2:
+                raise ValueError(
+                    f"order {order:g} must lie above 0 and below {samples_per_revolution / 2:g}"
+                )
+        self.window_revolutions = window_revolutions
+        self.orders = tuple(float(order) for order in orders)
+        self.samples_per_revolution = samples_per_revolution
+        self._basis = _unit_vectors(
+            np.outer(self.orders, np.arange(samples_per_revolution) / samples_per_revolution)
+        )
+        self._turns = _unit_vectors(np.outer(np.arange(window_revolutions), self.orders))
+        self._scale = 2.0 / (samples_per_revolution * window_revolutions)
+        # Every sum is stored twice, a window apart, so that the window is always one contiguous view.
+        self._sums = np.zeros((2, len(self.orders), 2 * window_revolutions))
+        self._next = 0
+        self._held = 0
+
+    def clear(self) -> None:
+        """Forget all revolutions."""
+        self._next = 0
+        self._held = 0
+
+    @property
+    def full(self) -> bool:
+        """Whether the window holds all its revolutions."""
+        return self._held == self.window_revolutions
+
+    def push(self, revolution: NDArray[np.float64], index: int = 0, phase_rad: float = 0.0) -> None:
+        """Add the newest revolution and drop the oldest of a full window.
+
+        Parameters
+        ----------
+        revolution : ndarray, shape (samples_per_revolution,)
+            Vertical acceleration, m/s².
+        index : int
+            Number of the revolution; consecutive in a window (half orders turn by π from one to the
+            next).
+        phase_rad : float
+            Phase of the eccentric at the first sample.
+        """
+        products = self._basis * revolution
+        real, imaginary = np.add.reduce(products, axis=2)
+        turn_real, turn_imaginary = self._turns_at(index, phase_rad)
+        slot = self._next
+        # (real − i imaginary) × (turn_real − i turn_imaginary)
+        self._sums[0, :, slot] = real * turn_real - imaginary * turn_imaginary
+        self._sums[1, :, slot] = -(real * turn_imaginary + imaginary * turn_real)
+        self._sums[:, :, slot + self.window_revolutions] = self._sums[:, :, slot]
+        self._next = (slot + 1) % self.window_revolutions
+        self._held = min(self._held + 1, self.window_revolutions)
+
+    def harmonics(self) -> Harmonics:
+        """Return the amplitudes over the window; NaN while it is not full."""
+        if not self.full:
+            unknown = np.full(len(self.orders), complex(math.nan, math.nan))
+            return Harmonics(self.orders, unknown)
+        window = self._sums[:, :, self._next : self._next + self.window_revolutions]
+        real, imaginary = np.add.reduce(window, axis=2) * self._scale
+        amplitudes = np.empty(len(self.orders), dtype=np.complex128)
+        amplitudes.real = real
+        amplitudes.imag = imaginary
+        return Harmonics(self.orders, amplitudes)
+
+    def _turns_at(
+        self, index: int, phase_rad: float
+    ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        """Return cos and sin of q (2π index + phase), exactly ±1 and 0 where the angle is one."""
+        turn = self._turns[:, index % self.window_revolutions]
+        if phase_rad == 0.0:
+            return turn[0], turn[1]
+        angle = np.array(self.orders) * phase_rad
+        cosine, sine = np.cos(angle), np.sin(angle)
+        return turn[0] * cosine - turn[1] * sine, turn[1] * cosine + turn[0] * sine
+
+
+def order_amplitudes(
+    vertical: NDArray[np.floating],
+    orders: Sequence[float] = METER_ORDERS,
+    samples_per_revolution: int = SAMPLES_PER_REVOLUTION,
+) -> Harmonics:
+    """Return the amplitudes over a whole array, which begins at phase zero.
+
+    Parameters
+    ----------
+    vertical : ndarray, shape (revolutions × samples_per_revolution,)
+        Vertical acceleration, m/s².
+    orders : sequence of float
+        Orders of interest.
+    samples_per_revolution : int
+        Samples in one revolution.
+
+    Returns
+    -------
+    Harmonics
+        The same bits as a `HarmonicsWindow` of that length gives.
+    """
+    revolutions = np.asarray(vertical, dtype=np.float64).reshape(-1, samples_per_revolution)
+    window = HarmonicsWindow(len(revolutions), orders, samples_per_revolution)
+    for index, revolution in enumerate(revolutions):
+        window.push(revolution, index)
+    return window.harmonics()
+
+
+def _unit_vectors(turns: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return cos and sin of 2π `turns`, stacked in front, exact at multiples of a quarter turn."""
+    fraction = turns - np.floor(turns)
+    quarters = np.rint(4.0 * fraction)
+    rest = 2.0 * math.pi * (fraction - quarters / 4.0)
+    cosine, sine = np.cos(rest), np.sin(rest)
+    quarter = quarters.astype(np.int64) % 4
+    return np.stack(
+        [
+            np.choose(quarter, [cosine, -sine, -cosine, sine]),
+            np.choose(quarter, [sine, cosine, -sine, -cosine]),
+        ]
+    )
