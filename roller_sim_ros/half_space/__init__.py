@@ -1,0 +1,42 @@
+"""The elastic half space below the plastic layer, loaded by the drum's strip (paper, eqs 5 to 10).
+
+Where things are:
+
+- ``static``: influence integral I(alpha) and static compliance H0, eqs (5) to (7)
+- ``point_load``: what a point load's step does to the surface (Pekeris), Rayleigh speed
+- ``rectangle``: how much of the strip's load lies at each distance from its centre
+- ``transient``: the two together, in closed form: step response and ramp
+- ``step_response``: the transient as a table for the kernels; FIR taps (half space ``exact``)
+- ``point_load_harmonic``, ``compliance``: exact compliance H(i omega), by quadrature
+- ``two_pole``: the paper's second-order half space
+- ``checks``: argument checks and `HalfSpaceError`
+"""
+
+from roller_sim_ros.half_space.checks import HalfSpaceError
+from roller_sim_ros.half_space.compliance import exact_compliance, normalised_compliance
+from roller_sim_ros.half_space.point_load import rayleigh_slowness
+from roller_sim_ros.half_space.static import influence_integral, static_compliance
+from roller_sim_ros.half_space.step_response import (
+    StepResponse,
+    ramp_at,
+    step_at,
+    step_response,
+    taps,
+)
+from roller_sim_ros.half_space.two_pole import two_pole_compliance, two_pole_frequency
+
+__all__ = [
+    "HalfSpaceError",
+    "influence_integral",
+    "static_compliance",
+    "rayleigh_slowness",
+    "StepResponse",
+    "step_response",
+    "ramp_at",
+    "step_at",
+    "taps",
+    "exact_compliance",
+    "normalised_compliance",
+    "two_pole_frequency",
+    "two_pole_compliance",
+]

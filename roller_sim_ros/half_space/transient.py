@@ -1,0 +1,195 @@
+"""Exact transient of the rectangle's centre, in closed form: the step response and its ramp.
+
+Lengths are in units of sqrt(BL), times in units of sqrt(BL)/v_s. With the point load's S(x)
+(`point_load`) and the load's weight m(r) at the distance r from the centre (`rectangle`),
+
+    s(tau) = int m(r) S(tau/r) dr / int m(r) dr,        R(tau) = int_0^tau s.
+
+m is a sum over the sides of psi P + mu t; S is made of terms 1/sqrt(lambda r^2 + beta). With u = r^2,
+every product of the two integrates, by parts on P, to
+
+    T = int dt/w,        E = int dt/((c^2 + t^2) w),        w^2 = beta + lambda u,
+
+which are logarithms and arc tangents. No quadrature is left.
+
+Pekeris (1955) and Mooney (1974) for S; the integration over the rectangle is this package's.
+"""
+
+from __future__ import annotations
+
+import cmath
+import math
+from dataclasses import dataclass
+from typing import Any, TypeAlias
+
+import numpy as np
+import numpy.typing as npt
+
+from roller_sim_ros.half_space.point_load import (
+    FloatArray,
+    PointLoad,
+    point_load,
+)
+from roller_sim_ros.half_space.rectangle import Side, sides, static_weight
+
+NumberArray: TypeAlias = npt.NDArray[Any]  # real, or complex for a complex root
+
+_LEAST_LOGARITHM = 1e-300
+
+
+@dataclass(frozen=True)
+class _Kernel:
+    """One term 1/w of S with w^2 = beta + lambda u; beta = -tau^2 (Rayleigh) or tau^2 (body)."""
+
+    rayleigh: bool
+    slope: complex  # lambda
+
+    def integrals(
+        self, side: Side, u: FloatArray, tau: FloatArray
+    ) -> tuple[NumberArray, NumberArray]:
+        """Antiderivatives in u of m/(2w) and of m phi/2, where d phi/du = -tau/(2 u w).
+
+        The first belongs to the step, the second to the ramp. Constants of integration do not
+        depend on u.
+        """
+        c, b, sigma, mu = side.distance, side.half_width, side.sense, side.edge
+        lam = self.slope.real if self.slope.imag == 0.0 else self.slope
+        beta = -tau * tau if self.rayleigh else tau * tau
+        t = side.tangent(u)
+        psi = side.angle(t)
+        edge_u = np.maximum(u, c * c)
+        if self.rayleigh:
+            root_lam = math.sqrt(self.slope.real)
+            w = np.sqrt(np.maximum(beta + lam * u, 0.0))
+            edge_w = np.sqrt(np.maximum(beta + lam * edge_u, 0.0))
+            phi = np.arctan2(tau, w)
+            big_t = np.log(np.maximum(root_lam * t + edge_w, _LEAST_LOGARITHM)) / root_lam
+            big_e = np.log(np.maximum(c * edge_w + tau * t, _LEAST_LOGARITHM))
+            big_e = (big_e - 0.5 * np.log(edge_u)) / (c * tau)
+        else:
+            w_squared, edge_w_squared = beta + lam * u, beta + lam * edge_u
+            if not np.iscomplexobj(edge_w_squared):
+                edge_w_squared = np.maximum(edge_w_squared, 0.0)  # t = 0 there: no contribution
+            w, edge_w = np.sqrt(w_squared), np.sqrt(edge_w_squared)
+            phi = np.log((tau + w) / np.sqrt(u))
+            if np.iscomplexobj(w):
+                root = cmath.sqrt(self.slope)
+                big_t = np.log(root * t + edge_w) / root
+                big_e = np.arctan(tau * t / (c * edge_w)) / (c * tau)
+            else:
+                kappa = math.sqrt(-self.slope.real)
+                big_t = np.arctan2(kappa * t, edge_w) / kappa
+                big_e = np.arctan2(tau * t, c * edge_w) / (c * tau)
+
+        d_t = (beta + lam * c * c) * big_t
+        i1 = 2.0 * (lam * big_t + beta * big_e)  # int w/(u t) du
+        i2 = t * edge_w + d_t  # int w/t du
+        i3 = (t * edge_w - d_t) / lam  # int t/w du
+        i4 = 2.0 * (big_t - c * c * big_e)  # int t/(u w) du
+        curvature = 1.0 / (6.0 * b * b)
+        ratio = beta / lam
+
+        def of_parabola(p: float) -> NumberArray:
+            # int psi (1 - 3 p u)/(2 w) du, by parts on the polynomial
+            q = 1.0 + 2.0 * p * ratio
+            out: NumberArray = (psi * w * (q - p * u) - 0.5 * sigma * c * (q * i1 - p * i2)) / lam
+            return out
+
+        step = of_parabola(curvature) + 0.5 * mu * i3
+        n0 = 2.0 - c * c / (3.0 * b * b)
+        ramp = psi * u * (1.0 - 1.5 * curvature * u) * phi
+        ramp = ramp + tau * of_parabola(0.5 * curvature)
+        ramp -= 0.5 * sigma * c * t * (n0 - curvature * u) * phi
+        ramp -= 0.25 * sigma * c * tau * (n0 * i4 - curvature * i3)
+        ramp += mu * (2.0 / 3.0 * t**3 * phi + tau / 3.0 * (i3 - c * c * i4))
+        return side.scale * step, 0.5 * side.scale * ramp
+
+
+@dataclass(frozen=True)
+class _PointRamp:
+    """Values of int_0^x S at the wave fronts that the ramp needs."""
+
+    after_p: float  # added to x - a in a < x < 1, before the functions of x
+    after_s: float
+    after_rayleigh: float
+
+    @classmethod
+    def of(cls, load: PointLoad) -> _PointRamp:
+        a, gamma, strength = load.slowness_p, load.slowness_rayleigh, load.rayleigh_amplitude
+
+        def body(x: float) -> float:
+            total = 0.0
+            for root in load.body_roots:
+                phi = cmath.log(x + cmath.sqrt(x * x - root.kappa_squared))
+                total += (root.amplitude * phi).real
+            return total
+
+        at_p, at_s = strength * math.asin(a / gamma), strength * math.asin(1.0 / gamma)
+        ramp_s = 0.5 * ((1.0 - a) - (at_s - at_p) - (body(1.0) - body(a)))
+        ramp_rayleigh = ramp_s + gamma - 1.0 - (0.5 * math.pi * strength - at_s)
+        return cls(
+            after_p=0.5 * (-a + at_p + body(a)),
+            after_s=ramp_s - 1.0 + at_s,
+            after_rayleigh=ramp_rayleigh - gamma,
+        )
+
+
+def memory(aspect_ratio: float, poisson_ratio: float) -> float:
+    """Return T v_s/sqrt(BL): from here on the response to a step is exactly its static value."""
+    diagonal = math.sqrt(aspect_ratio + 1.0 / aspect_ratio)
+    return point_load(poisson_ratio).slowness_rayleigh * diagonal
+
+
+def step_and_ramp(
+    tau: FloatArray, aspect_ratio: float, poisson_ratio: float
+) -> tuple[FloatArray, FloatArray]:
+    """Exact normalised step response s and its integral R at the centre of the rectangle.
+
+    Parameters
+    ----------
+    tau : ndarray, shape (n,)
+        Dimensionless times t v_s/sqrt(BL), none negative.
+    aspect_ratio : float
+        alpha = L/B.
+    poisson_ratio : float
+        nu, 0 <= nu < 0.5.
+
+    Returns
+    -------
+    step, ramp : ndarray, shape (n,)
+        s, from 0 at tau = 0 to 1 at the memory and after, and R in units of sqrt(BL)/v_s.
+    """
+    load = point_load(poisson_ratio)
+    farthest = aspect_ratio + 1.0 / aspect_ratio
+    whole = static_weight(aspect_ratio)
+    fronts = _PointRamp.of(load)
+    tau = np.asarray(tau, dtype=np.float64)
+    positive = tau > 0.0
+    time = np.where(positive, tau, 1.0)
+    a, gamma, strength = load.slowness_p, load.slowness_rayleigh, load.rayleigh_amplitude
+
+    u_r = np.minimum((time / gamma) ** 2, farthest)
+    u_s = np.minimum(time**2, farthest)
+    u_p = np.minimum((time / a) ** 2, farthest)
+    rayleigh = _Kernel(rayleigh=True, slope=complex(gamma * gamma))
+    step, ramp = np.zeros_like(time), np.zeros_like(time)
+    for side in sides(aspect_ratio):
+        _, area_r = side.weight_integrals(u_r)
+        along_s, area_s = side.weight_integrals(u_s)
+        along_p, area_p = side.weight_integrals(u_p)
+        (step_r, ramp_r), (step_s, ramp_s), (step_p, ramp_p) = (
+            rayleigh.integrals(side, u, time) for u in (u_r, u_s, u_p)
+        )
+        step += 0.5 * (along_s + along_p) - strength * (0.5 * (step_p + step_s) - step_r).real
+        ramp += (
+            time * 0.5 * (along_s + along_p) - strength * (0.5 * (ramp_p + ramp_s) - ramp_r).real
+        )
+        ramp += fronts.after_rayleigh * area_r + fronts.after_s * (area_s - area_r)
+        ramp += fronts.after_p * (area_p - area_s)
+        for root in load.body_roots:
+            kernel = _Kernel(rayleigh=False, slope=-root.kappa_squared)
+            near_step, near_ramp = kernel.integrals(side, u_s, time)
+            far_step, far_ramp = kernel.integrals(side, u_p, time)
+            step -= 0.5 * (root.amplitude * (far_step - near_step)).real
+            ramp -= 0.5 * (root.amplitude * (far_ramp - near_ramp)).real
+    return np.where(positive, step / whole, 0.0), np.where(positive, ramp / whole, 0.0)
