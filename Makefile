@@ -1,0 +1,48 @@
+# make setup | sim | test | check | bench | docs | clean
+#
+# Everything goes into .venv and build; nothing needs sourcing.
+
+SHELL := /bin/bash
+VENV := .venv/bin
+
+# Options for `make sim`, as in: make sim ARGS="--frequency-hz 30"
+ARGS ?=
+# Options for pytest, as in: make test TESTS="tests/unit -x"
+TESTS ?= tests
+# The Python to make .venv from; found when not given.
+export PYTHON
+
+# A ROS 2 that is sourced, or a parent that runs in a venv with ROS wheels, must not leak in.
+unexport PYTHONPATH PYTHONHOME AMENT_PREFIX_PATH CMAKE_PREFIX_PATH _ROS_WHEELS_BOOTSTRAP_COMPLETE
+ifdef ROS_DISTRO
+unexport LD_LIBRARY_PATH
+endif
+
+.PHONY: setup sim test check bench docs clean
+
+setup:
+	@tools/setup.sh
+
+sim: setup
+	@exec $(VENV)/roller-sim sim $(ARGS)
+
+# The checks come first so that pytest's summary is the last line.
+test: check
+	@mkdir -p build/ros_log
+	@ROS_LOG_DIR="$(CURDIR)/build/ros_log" ROS_AUTOMATIC_DISCOVERY_RANGE=LOCALHOST \
+	 RMW_IMPLEMENTATION=rmw_fastrtps_cpp exec $(VENV)/python -m pytest $(TESTS)
+
+check: setup
+	@$(VENV)/ruff check --quiet .
+	@$(VENV)/ruff format --check --quiet .
+	@$(VENV)/mypy --no-error-summary
+
+bench: setup
+	@exec $(VENV)/python -m benchmarks $(ARGS)
+
+docs: setup
+	@exec $(VENV)/python tools/generate_docs.py
+
+clean:
+	rm -rf .venv build install log dist roller_sim_ros.egg-info .mypy_cache .pytest_cache .ruff_cache .hypothesis
+	find . -name __pycache__ -type d -prune -exec rm -rf {} +

@@ -1,0 +1,40 @@
+"""What pip installs: the Python modules and the shared files, without generated messages.
+
+A ROS 2 installation is built from CMakeLists.txt instead, which installs the same modules.
+"""
+
+import xml.etree.ElementTree
+from pathlib import Path
+
+from setuptools import find_packages, setup
+
+ROOT = Path(__file__).resolve().parent
+NAME = "roller_sim_ros"
+
+package = xml.etree.ElementTree.parse(ROOT / "package.xml").getroot()
+requirements = (ROOT / "requirements" / "python.txt").read_text(encoding="utf-8").splitlines()
+
+
+def shared(folder: str, pattern: str) -> tuple[str, list[str]]:
+    """Return a folder under share/ and the files that go there, relative to this file."""
+    files = sorted(path.relative_to(ROOT).as_posix() for path in (ROOT / folder).glob(pattern))
+    return (f"share/{NAME}/{folder}".rstrip("/"), files)
+
+
+setup(
+    name=NAME,
+    version=package.findtext("version"),
+    description="A vibratory soil-compaction roller for ROS 2: its sensors, emulated",
+    license=package.findtext("license"),
+    python_requires=">=3.10",
+    packages=find_packages(include=[NAME, f"{NAME}.*"]),
+    package_data={NAME: ["py.typed"]},
+    data_files=[
+        shared("", "package.xml"),
+        shared("msg", "*.msg"),
+        shared("config", "*.yaml"),
+        shared("launch", "*.launch.py"),
+    ],
+    install_requires=[line for line in requirements if line and not line.startswith("#")],
+    entry_points={"console_scripts": ["roller-sim = roller_sim_ros.commands:main"]},
+)
