@@ -1,4 +1,7 @@
-"""Starts the roller: ros2 launch roller_sim_ros sim.launch.py [namespace:=roller_1] [record:=trace.mcap] …"""
+"""Starts the roller.
+
+As in ``ros2 launch roller_sim_ros sim.launch.py namespace:=roller_1 record:=trace.mcap``.
+"""
 
 from __future__ import annotations
 

@@ -1,0 +1,15 @@
+"""Settings that hold for every test, also when pytest is started without make."""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parent.parent
+
+# rclpy fails at start when its log folder is not writable, and the tests' own messages must stay on
+# this machine.
+_LOGS = ROOT / "build" / "ros_log"
+_LOGS.mkdir(parents=True, exist_ok=True)
+os.environ.setdefault("ROS_LOG_DIR", str(_LOGS))
+os.environ.setdefault("ROS_AUTOMATIC_DISCOVERY_RANGE", "LOCALHOST")
