@@ -138,9 +138,10 @@ class ExciterDrive:
             low = max(lowest, floor - revolutions * most_hz)
             high = min(highest, floor - (revolutions - 1) * most_hz)
             ramp = most_hz * revolutions * (revolutions - 1) / 2.0
-            turns = math.floor((revolutions * high + ramp) / floor + self._phase_turns)
-            start = ((turns - self._phase_turns) * floor - ramp) / revolutions
-            if low <= start < floor and start <= high:
+            # The small number keeps a plan that is being followed from being missed by a rounding error.
+            turns = math.floor((revolutions * high + ramp) / floor + self._phase_turns + 1e-9)
+            start = min(high, ((turns - self._phase_turns) * floor - ramp) / revolutions)
+            if low <= start < floor:
                 return start
         return None
 

@@ -1,0 +1,27 @@
+"""Drum and soil: the phases of Figure 13, a kernel for each kind of half space.
+
+A new half space is one file with a `Ground` and one line in `GROUNDS` (and its name among the choices of the
+parameter ``half_space.model``). Those that answer a force with a velocity share `velocity_contact`.
+"""
+
+from roller_sim_ros.drum_soil.exact_ground import ExactGround
+from roller_sim_ros.drum_soil.ground import Ground, LoadedStrip, loaded_strip
+from roller_sim_ros.drum_soil.state import AIR, LOADING, UNLOADING
+from roller_sim_ros.drum_soil.two_pole_ground import TwoPoleGround
+
+GROUNDS: dict[str, type[Ground]] = {
+    "exact": ExactGround,
+    "two-pole": TwoPoleGround,
+}
+
+__all__ = [
+    "AIR",
+    "GROUNDS",
+    "LOADING",
+    "UNLOADING",
+    "ExactGround",
+    "Ground",
+    "LoadedStrip",
+    "TwoPoleGround",
+    "loaded_strip",
+]

@@ -1,0 +1,130 @@
+"""Ground whose half space is the exact one."""
+
+from __future__ import annotations
+
+import math
+from functools import lru_cache
+
+import numpy as np
+
+from roller_sim_ros.drum_soil import exact
+from roller_sim_ros.drum_soil import state as at
+from roller_sim_ros.drum_soil.ground import Array, Ground
+from roller_sim_ros.exciter import Revolution
+from roller_sim_ros.half_space.transient import memory, step_and_ramp
+from roller_sim_ros.parameters import Soil
+
+
+class ExactGround(Ground):
+    """Drum on the exact half space: history as the free motion that the surface would go on with."""
+
+    def _start(self) -> None:
+        super()._start()
+        self._free = np.zeros(0)
+        self._free_rate = np.zeros(0)
+        self._kinks = np.zeros((at.MAX_SPLITS + 1, 2))
+        self._ramp = np.zeros(0)
+        self._step = np.zeros(0)
+        self._force_answer = np.zeros(0)
+        self._force_answer_rate = np.zeros(0)
+        # The free motion at the last change, for resampling: its step, its length, and the time for which
+        # waves of an earlier soil are still under way.
+        self._memory = 0
+        self._old_step_s = 0.0
+        self._old_compliance = self.strip.static_compliance
+        self._old_waves_s = 0.0
+
+    def begin(self, revolution: Revolution, soil: Soil) -> None:
+        """Take over the plan and the soil of the next revolution."""
+        self._old_waves_s = max(0.0, self._old_waves_s - self._samples * self._old_step_s)
+        super().begin(revolution, soil)
+
+    def _change(self, soil: Soil, revolution: Revolution) -> None:
+        h = revolution.sample_period_s
+        unit = self.strip.time_unit_s
+        alpha, nu = self.strip.aspect_ratio, soil.poisson_ratio
+        own_memory_s = memory(alpha, nu) * unit
+        blend_s = own_memory_s
+        free_s = max(own_memory_s, self._old_waves_s)
+        if self._soil != soil:
+            free_s = max(free_s, (self._memory + 1) * self._old_step_s)
+            self._old_waves_s = free_s
+        count = math.ceil(free_s / h) + 1
+        step, ramp = _response(alpha, nu, h / unit, count + 1)
+        compliance = self.strip.static_compliance
+        self._step = compliance * step
+        self._ramp = compliance * unit * ramp
+        self._force_answer = np.diff(self._ramp) / h
+        self._force_answer_rate = np.diff(self._step) / h
+        self._resample(h, count, blend_s)
+        self._old_step_s = h
+        self._old_compliance = compliance
+        self._memory = count
+
+    def _resample(self, h: float, count: int, blend_s: float) -> None:
+        """Lay the free motion on the new sample times, towards the new soil's rest under the present force.
+
+        The waves under way go on as they were; the difference of the rests is made up smoothly within one memory, so
+        that neither the surface nor its velocity steps.
+        """
+        force = self.state[at.FORCE]
+        rest = self.strip.static_compliance * force
+        old_rest = self._old_compliance * force
+        times = h * np.arange(count + 1, dtype=np.float64)
+        length = count + 1 + self._samples
+        free, free_rate = np.full(length, rest), np.zeros(length)
+        if self._old_step_s:
+            old = slice(0, self._memory + 1)
+            waves, rate = _hermite(
+                times, self._old_step_s, self._free[old] - old_rest, self._free_rate[old]
+            )
+            free[: count + 1] += waves
+            free_rate[: count + 1] += rate
+        if rest != old_rest:
+            u = np.minimum(times / blend_s, 1.0)
+            free[: count + 1] += (old_rest - rest) * (1.0 - u * u * (3.0 - 2.0 * u))
+            free_rate[: count + 1] -= (old_rest - rest) * 6.0 * u * (1.0 - u) / blend_s
+        self._free, self._free_rate = free, free_rate
+
+    def advance(self, first: int, samples: int) -> Array:
+        """Step over samples first … first + samples − 1 of the revolution."""
+        out = np.empty((at.OUT_ROWS, samples))
+        exact.advance(
+            samples,
+            first,
+            self.state,
+            self._constants,
+            self._sine,
+            self._cosine,
+            self._angle,
+            self._ramp,
+            self._step,
+            self._force_answer,
+            self._force_answer_rate,
+            self._free,
+            self._free_rate,
+            self._kinks,
+            out,
+        )
+        return out
+
+
+@lru_cache(maxsize=256)
+def _response(alpha: float, nu: float, spacing: float, count: int) -> tuple[Array, Array]:
+    """Return s and R at k·spacing (dimensionless), k = 0 … count − 1."""
+    return step_and_ramp(spacing * np.arange(count, dtype=np.float64), alpha, nu)
+
+
+def _hermite(times: Array, h: float, values: Array, rates: Array) -> tuple[Array, Array]:
+    """Return value and rate, at `times`, of the cubics through values and rates at k h; 0 beyond the last."""
+    position = times / h
+    last = values.shape[0] - 1
+    index = np.minimum(position.astype(np.int64), last - 1)
+    u = position - index
+    v = 1.0 - u
+    f_0, f_1, r_0, r_1 = values[index], values[index + 1], rates[index], rates[index + 1]
+    value = (1.0 + 2.0 * u) * v * v * f_0 + u * u * (3.0 - 2.0 * u) * f_1
+    value += u * v * v * h * r_0 - u * u * v * h * r_1
+    rate = 6.0 * u * v * (f_1 - f_0) / h + v * (1.0 - 3.0 * u) * r_0 + u * (3.0 * u - 2.0) * r_1
+    inside = position <= last
+    return np.where(inside, value, 0.0), np.where(inside, rate, 0.0)
