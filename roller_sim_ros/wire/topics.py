@@ -1,0 +1,198 @@
+"""The one table of topics; publishers, recording and the README's table are made from it."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+from enum import Enum
+
+from roller_sim_ros.parameters import SAMPLES_PER_REVOLUTION, Pacing
+from roller_sim_ros.wire.qos import Qos
+
+BRISK_HZ = 40.0
+"""Excitation frequency by which depths of "one second" are reckoned; rollers vibrate at 25 to 40 Hz."""
+
+
+class Direction(Enum):
+    """What the node does with a topic."""
+
+    PUBLISHED = "publishes"
+    SUBSCRIBED = "subscribes"
+    RECORDED = "records"
+    """Neither: others publish it, the recording takes it along."""
+
+
+Depth = Callable[[Pacing], int]
+
+
+def _fixed(depth: int) -> Depth:
+    return lambda _: depth
+
+
+def _second_of(samples_per_message: Callable[[Pacing], int]) -> Depth:
+    """Return a depth of one second of messages that come every so many samples."""
+    per_second = BRISK_HZ * SAMPLES_PER_REVOLUTION
+    return lambda pacing: math.ceil(per_second / samples_per_message(pacing))
+
+
+_BLOCKS = _second_of(lambda pacing: pacing.samples_per_message)
+_SAMPLES = _second_of(lambda pacing: pacing.imu_decimation)
+_REVOLUTIONS = _second_of(lambda _: SAMPLES_PER_REVOLUTION)
+
+
+@dataclass(frozen=True)
+class Topic:
+    """One topic.
+
+    Attributes
+    ----------
+    name : str
+        Relative to the node's namespace; absolute where ROS 2 has one for the whole system.
+    type_name : str
+        As in ``package/msg/Name``.
+    direction : Direction
+        What the node does with it.
+    doc : str
+        What it says, with units, for the README's table.
+    depth : callable
+        Depth of the history from the pacing.
+    rate : str
+        How often it comes, for the README's table.
+    durability : str
+        ``volatile`` or ``transient_local``. All topics are reliable, which best-effort readers match too.
+    """
+
+    name: str
+    type_name: str
+    direction: Direction
+    doc: str
+    depth: Depth
+    rate: str
+    durability: str = "volatile"
+
+    def qos(self, pacing: Pacing) -> Qos:
+        """Return the quality of service at a pacing."""
+        return Qos("reliable", self.durability, self.depth(pacing))
+
+    def resolved(self, namespace: str = "/") -> str:
+        """Return the absolute name in a namespace."""
+        if self.name.startswith("/"):
+            return self.name
+        return f"/{namespace.strip('/')}/{self.name}".replace("//", "/")
+
+
+ACCELERATION = Topic(
+    "drum/acceleration",
+    "roller_sim_ros/msg/DrumAcceleration",
+    Direction.PUBLISHED,
+    "blocks of what the sensor delivers: vertical and horizontal drum acceleration, m/s²",
+    _BLOCKS,
+    "per block",
+)
+IMU = Topic(
+    "drum/imu",
+    "sensor_msgs/msg/Imu",
+    Direction.PUBLISHED,
+    "the same per sample as specific force, m/s², +9.81 on z at rest; only while someone listens",
+    _SAMPLES,
+    "per sample, decimated",
+)
+METER = Topic(
+    "meter",
+    "roller_sim_ros/msg/CompactionMeter",
+    Direction.PUBLISHED,
+    "CMV, RMV (dimensionless), period and mode from the published samples",
+    _REVOLUTIONS,
+    "per revolution",
+)
+CMV = Topic(
+    "cmv",
+    "std_msgs/msg/Float64",
+    Direction.PUBLISHED,
+    "CMV alone, dimensionless, NaN when there is none; right after meter",
+    _REVOLUTIONS,
+    "per revolution",
+)
+EXCITER_STATE = Topic(
+    "exciter/state",
+    "roller_sim_ros/msg/ExciterState",
+    Direction.PUBLISHED,
+    "what the exciter does and was told: Hz, m, N; why a command was refused",
+    _fixed(10),
+    "10 Hz and on change",
+)
+TRUTH = Topic(
+    "truth",
+    "roller_sim_ros/msg/DrumSoilState",
+    Direction.PUBLISHED,
+    "blocks of the motion itself: m/s², N, m; G in Pa, p in m, true CMV, RMV and mode",
+    _BLOCKS,
+    "per block",
+)
+APPLIED = Topic(
+    "applied",
+    "roller_sim_ros/msg/AppliedChange",
+    Direction.PUBLISHED,
+    "every command and parameter change at the sample where it took effect, SI units",
+    _fixed(100),
+    "on change",
+)
+MACHINE = Topic(
+    "machine",
+    "diagnostic_msgs/msg/DiagnosticStatus",
+    Direction.PUBLISHED,
+    "facts of the roller: name and value of its parameters, SI units in the names",
+    _fixed(1),
+    "at start and on change",
+    durability="transient_local",
+)
+SOIL = Topic(
+    "soil",
+    "diagnostic_msgs/msg/DiagnosticStatus",
+    Direction.PUBLISHED,
+    "facts of the ground: name and value of its parameters, SI units in the names",
+    _fixed(1),
+    "at start and on change",
+    durability="transient_local",
+)
+DIAGNOSTICS = Topic(
+    "/diagnostics",
+    "diagnostic_msgs/msg/DiagnosticArray",
+    Direction.PUBLISHED,
+    "sample rate, lateness, real-time factor, recorder, last refused command",
+    _fixed(10),
+    "1 Hz",
+)
+EXCITER_COMMAND = Topic(
+    "exciter/command",
+    "roller_sim_ros/msg/ExciterCommand",
+    Direction.SUBSCRIBED,
+    "what the exciter is to do: vibrate, Hz, m",
+    _fixed(10),
+    "by the controller",
+)
+PARAMETER_EVENTS = Topic(
+    "/parameter_events",
+    "rcl_interfaces/msg/ParameterEvent",
+    Direction.RECORDED,
+    "parameters set at any node, SI units in the names",
+    _fixed(1000),
+    "on change",
+)
+
+TOPICS: tuple[Topic, ...] = (
+    ACCELERATION,
+    IMU,
+    METER,
+    CMV,
+    EXCITER_STATE,
+    TRUTH,
+    APPLIED,
+    MACHINE,
+    SOIL,
+    DIAGNOSTICS,
+    EXCITER_COMMAND,
+    PARAMETER_EVENTS,
+)
+"""All topics, in the order of the README's table."""
