@@ -206,18 +206,25 @@ def test_messages_import_with_nothing_sourced(where: str, tmp_path: Path) -> Non
     assert result.stdout == "0\n", result.stderr
 
 
-def test_executables_are_installed_for_ros2_run_and_the_shell() -> None:
-    for folder in (Path(sys.prefix, "lib", "roller_sim_ros"), Path(sys.prefix, "bin")):
-        names = list(commands.COMMANDS) if folder.name == "roller_sim_ros" else ["roller-sim"]
-        for name in names:
-            assert os.access(folder / name, os.X_OK), folder / name
+def executables() -> Path:
+    """Where `ros2 run` looks: lib/<package> under an ament prefix, or under the one of make setup."""
+    prefixes = [*os.environ.get("AMENT_PREFIX_PATH", "").split(os.pathsep), sys.prefix]
+    folders = [Path(prefix, "lib", "roller_sim_ros") for prefix in prefixes if prefix]
+    return next((folder for folder in folders if folder.is_dir()), folders[-1])
 
 
 @pytest.mark.parametrize("command", list(commands.COMMANDS))
-def test_every_command_has_a_help(command: str, tmp_path: Path) -> None:
-    result = run(str(Path(sys.prefix, "lib", "roller_sim_ros", command)), "--help", cwd=tmp_path)
+def test_every_command_is_installed_and_has_a_help(command: str, tmp_path: Path) -> None:
+    result = run(str(executables() / command), "--help", cwd=tmp_path)
     assert result.returncode == 0, result.stderr
     assert f"roller-sim {command}" in result.stdout
+
+
+def test_console_script_is_installed() -> None:
+    script = Path(sys.prefix, "bin", "roller-sim")
+    if not script.exists() and os.environ.get("AMENT_PREFIX_PATH"):
+        return  # built by colcon, which installs executables only
+    assert run(str(script), "--version").stdout == f"roller-sim {roller_sim_ros.__version__}\n"
 
 
 def test_share_directory_prefers_the_ament_index(
@@ -235,21 +242,22 @@ def test_share_directory_prefers_the_ament_index(
 
 def test_a_pip_installation_finds_its_shared_files(tmp_path: Path) -> None:
     # As pip lays them out under a prefix: the modules some folders below it, the rest under share/.
-    modules_folder = tmp_path / "lib" / "python3" / "site-packages" / "roller_sim_ros"
-    modules_folder.mkdir(parents=True)
+    folder = tmp_path / "lib" / "python3" / "site-packages" / "roller_sim_ros"
+    folder.mkdir(parents=True)
     for name in ("__init__.py", "errors.py", "share.py"):
-        (modules_folder / name).write_bytes((SOURCE / name).read_bytes())
-    program = "from roller_sim_ros.share import share_directory; print(share_directory())"
+        (folder / name).write_bytes((SOURCE / name).read_bytes())
+    program = (
+        "import sys; sys.prefix = '/nowhere'; from roller_sim_ros.share import share_directory;"
+        "print(share_directory())"
+    )
 
     def installed() -> subprocess.CompletedProcess[str]:
-        return run(sys.executable, "-c", program, cwd=modules_folder.parent, AMENT_PREFIX_PATH="")
+        return run(sys.executable, "-c", program, cwd=folder.parent, AMENT_PREFIX_PATH="")
 
-    if not (Path(sys.prefix) / "share" / "roller_sim_ros").is_dir():
-        assert "install the package anew" in installed().stderr
-        (tmp_path / "share" / "roller_sim_ros" / "msg").mkdir(parents=True)
-        assert installed().stdout.strip() == str(tmp_path / "share" / "roller_sim_ros")
-    else:
-        assert installed().stdout.strip() == str(Path(sys.prefix) / "share" / "roller_sim_ros")
+    assert "install the package anew" in installed().stderr
+    share = tmp_path / "share" / "roller_sim_ros"
+    (share / "msg").mkdir(parents=True)
+    assert installed().stdout.strip() == str(share)
 
 
 class Command:
