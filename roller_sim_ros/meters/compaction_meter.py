@@ -182,7 +182,9 @@ class CompactionMeter:
             return self._unknown(last_sample, excitation_hz, status, amplitude)
         values = evaluate(harmonics)
         period = None if Status.FREQUENCY_CHANGING in status else self._period.period()
-        lifting = lifts(self._period.mean_revolution()) if period == 1 else None
+        lifting = None
+        if period is not None:
+            lifting = lifts(self._period.repetitions(period), self._samples_per_revolution)
         return MeterValue(
             last_sample=last_sample,
             window_revolutions=self.window_revolutions,

@@ -1,64 +1,117 @@
 """Whether the drum leaves the ground, from its vertical acceleration alone.
 
 A meter knows neither masses nor amplitude, but it knows what a flight looks like. In the air
-``a = A ω² sin φ + c`` with c = −F_stat / m_d, and since the frame rests on the drum, c ≤ −g
-whatever the machine. The combination of three samples, h apart,
+``a = A ω² sin φ + c`` with c = −F_stat / m_d, and since the frame rests on the drum, c ≤ −g whatever the
+machine. The combination of three samples, h apart,
 
     c_n = [a(n+h) + a(n−h) − 2 cos(h δ) a(n)] / [2 (1 − cos h δ)],   δ = 2π / N,
 
-cancels everything at the excitation frequency and leaves exactly c in the air. So, for a waveform
-of zero mean (a drum that goes nowhere has none, and a meter cannot know it better):
+cancels everything at the excitation frequency and leaves exactly c in the air. In contact it varies with
+the soil's force. So, for an acceleration less its mean (a drum that goes nowhere has none, and a meter
+cannot know it better):
 
-- nowhere c_n ≤ −g: no flight of 2h + 1 samples or more, the drum keeps contact;
-- c_n level within 1 % over 9 samples, at or below −g: a flight;
-- else it cannot be told: a flight shorter than 2h + 9 samples (13 % of a revolution), strong
-  distortion in contact, or a sensor too noisy for the test.
+- c_n level over some samples, at or below −g: a flight;
+- c_n above −g everywhere: no flight of 2h + 1 samples;
+- no level stretch of a few samples although the noise would allow to see it: no flight longer than that;
+- else it cannot be told.
+
+Two sets of h, length and tolerance are tried. The fine one sees flights of 8 samples of 128 (6 % of a
+revolution) and needs samples that are exact to about 1e-5 of their size; the coarse one needs 17 samples
+(13 %) and stands some noise. Noise is what differs between two repetitions of the motion, after the same
+combination of samples; a slow drift passes it. What is shorter than the fine one sees is taken for contact.
 """
 
 from __future__ import annotations
 
 import math
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
 from roller_sim_ros.parameters import GRAVITY_M_S2
 
-STEP_SHARE = 1 / 32
-"""h as a share of the revolution."""
-
-LEVEL_SHARE = 9 / 128
-"""Length over which a flight has to be level, as a share of the revolution."""
-
-LEVEL_TOLERANCE = 0.01
-"""Range of c over that length, as a share of c."""
-
-GRAVITY_MARGIN = 0.95
-"""A flight falls with at least this share of g: the rest is for the meter's scale and mean."""
+GRAVITY_SHARE = 0.95
+"""A flight falls with at least this share of g: the rest is for the sensor's scale and the mean."""
 
 
-def lifts(waveform: NDArray[np.float64]) -> bool | None:
-    """Return whether one revolution of a motion of period 1 shows a flight, None if it does not tell.
+@dataclass(frozen=True)
+class Test:
+    """How a flight is looked for.
+
+    Attributes
+    ----------
+    step : float
+        h as a share of the revolution.
+    length : float
+        Length over which c has to be level, as a share of the revolution.
+    tolerance : float
+        Its range over that length, as a share of c.
+    """
+
+    step: float
+    length: float
+    tolerance: float
+
+
+FINE = Test(step=2 / 128, length=4 / 128, tolerance=1e-3)
+COARSE = Test(step=4 / 128, length=9 / 128, tolerance=1e-2)
+
+
+def lifts(repetitions: NDArray[np.float64], samples_per_revolution: int) -> bool | None:
+    """Return whether a motion has a flight, None if it cannot be told.
 
     Parameters
     ----------
-    waveform : ndarray, shape (samples_per_revolution,)
-        Vertical acceleration of one revolution, taken as periodic, without its mean, m/s².
+    repetitions : ndarray, shape (repetitions, period × samples_per_revolution)
+        Vertical acceleration, m/s², at least two repetitions of the motion, oldest first.
+    samples_per_revolution : int
+        N.
     """
-    samples = len(waveform)
-    step = max(1, round(STEP_SHARE * samples))
-    level = max(3, round(LEVEL_SHARE * samples))
-    cosine = math.cos(2.0 * math.pi * step / samples)
-    around = np.concatenate([waveform[-step:], waveform, waveform[:step]])
-    fall = (around[2 * step :] + around[: -2 * step] - 2.0 * cosine * waveform) / (
-        2.0 * (1.0 - cosine)
-    )
-    bound = -GRAVITY_MARGIN * GRAVITY_M_S2
-    if not fall.min() <= bound:
+    motion = repetitions.mean(axis=0)
+    motion -= motion.mean()
+    coarse = _fall(motion, COARSE, samples_per_revolution)
+    if coarse.min() > -GRAVITY_SHARE * GRAVITY_M_S2:
         return False
-    around = np.concatenate([fall, fall[: level - 1]])
-    stretches = np.lib.stride_tricks.sliding_window_view(around, level)
-    highest = stretches.max(axis=1)
-    lowest = stretches.min(axis=1)
-    flights = (highest <= bound) & (highest - lowest <= -LEVEL_TOLERANCE * highest)
-    return True if bool(flights.any()) else None
+    fine = _fall(motion, FINE, samples_per_revolution)
+    if _has_level(fine, FINE, samples_per_revolution):
+        return True
+    if _has_level(coarse, COARSE, samples_per_revolution):
+        return True
+    change = repetitions[-1] - repetitions[-2]
+    noise = np.abs(_fall(change, FINE, samples_per_revolution)).max()
+    return False if noise < FINE.tolerance * GRAVITY_M_S2 else None
+
+
+def _fall(
+    motion: NDArray[np.float64], test: Test, samples_per_revolution: int
+) -> NDArray[np.float64]:
+    """Return c_n of a motion taken as periodic, shape as given, m/s²."""
+    step = max(1, round(test.step * samples_per_revolution))
+    cosine = math.cos(2.0 * math.pi * step / samples_per_revolution)
+    around = np.concatenate([motion[-step:], motion, motion[:step]])
+    fall = around[2 * step :] + around[: -2 * step]
+    fall -= 2.0 * cosine * motion
+    fall /= 2.0 * (1.0 - cosine)
+    return fall
+
+
+def _has_level(fall: NDArray[np.float64], test: Test, samples_per_revolution: int) -> bool:
+    """Whether c_n has a level stretch at or below −g."""
+    length = max(3, round(test.length * samples_per_revolution))
+    around = np.concatenate([fall, fall[: length - 1]])
+    highest = _over_stretches(np.maximum, around, length)
+    flat = highest - _over_stretches(np.minimum, around, length) <= -test.tolerance * highest
+    return bool(np.any(flat & (highest <= -GRAVITY_SHARE * GRAVITY_M_S2)))
+
+
+def _over_stretches(
+    extreme: np.ufunc, values: NDArray[np.float64], length: int
+) -> NDArray[np.float64]:
+    """Return the extreme of each `length` values in a row, by doubling the length."""
+    reached = 1
+    while reached < length:
+        shift = min(reached, length - reached)
+        values = extreme(values[:-shift], values[shift:])
+        reached += shift
+    return values

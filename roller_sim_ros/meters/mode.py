@@ -65,15 +65,15 @@ def metered_mode(lifts: bool | None, period: int | None) -> Mode:
     Parameters
     ----------
     lifts : bool or None
-        For period 1: whether the waveform shows a flight (`roller_sim_ros.meters.flight`), None
-        when it does not tell. A longer period without loss of contact is taken for impossible.
+        Whether the motion shows a flight (`roller_sim_ros.meters.flight`), None when that cannot be told:
+        then a period of 1 gives UNKNOWN, and a longer one is taken to come from flights.
     period : int or None
         Period in revolutions, 0 for none, None for unknown.
     """
     if period is None:
         return Mode.UNKNOWN
+    if lifts is False:
+        return Mode.CONTINUOUS_CONTACT
     if period == 1:
-        if lifts is None:
-            return Mode.UNKNOWN
-        return Mode.PARTIAL_UPLIFT if lifts else Mode.CONTINUOUS_CONTACT
+        return Mode.UNKNOWN if lifts is None else Mode.PARTIAL_UPLIFT
     return _BY_PERIOD[period]

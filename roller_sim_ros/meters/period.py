@@ -97,11 +97,19 @@ class PeriodWindow:
         self._revolutions[slot] = revolution
         self._pushed += 1
 
-    def mean_revolution(self) -> NDArray[np.float64]:
-        """Return the mean of the window's revolutions less their own mean, shape (N,), m/s²."""
-        waveform: NDArray[np.float64] = np.mean(self._revolutions, axis=0)
-        waveform -= np.mean(waveform)
-        return waveform
+    def repetitions(self, period: int) -> NDArray[np.float64]:
+        """Return the window's samples in rows of a period each, oldest first; at least two rows.
+
+        Parameters
+        ----------
+        period : int
+            Revolutions in a row; `NO_PERIOD` for half the window.
+        """
+        length = period or self.window_revolutions // 2
+        rows = self.window_revolutions // length
+        newest = self._pushed - np.arange(rows * length, 0, -1)
+        revolutions = self._revolutions[newest % self.window_revolutions]
+        return revolutions.reshape(rows, -1)
 
     def period(self) -> int | None:
         """Return 1, 2, 4, 8, `NO_PERIOD`, or None when the window is not full or too short."""

@@ -92,6 +92,10 @@ class TruthMeter:
         ):
             if isinstance(item, Revolution):
                 self.value = self._value(item)
+            else:
+                self._harmonics.clear()
+                self._period.clear()
+                self._revolutions = 0
         return self.value
 
     def _value(self, revolution: Revolution) -> TruthValue:
