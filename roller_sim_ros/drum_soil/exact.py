@@ -1,8 +1,8 @@
 """The kernel for the exact half space: its finite memory is the motion its surface would go on with.
 
-History is kept as a physical quantity, the free response c(t) and its rate c'(t) at the coming samples if the force
-stayed as it is. A step whose force changes by ΔF adds ΔF (R(t+h) − R(t))/h; a change of slope inside the step adds the
-difference that its place makes. While the drum flies the force does not change and nothing is added.
+History is kept as a physical quantity, the free motion and its rate at the coming samples if the force stayed as it is. A
+step adds what its force does later: in a whole step a chord and a bulge, in a split one each bend of the force. While
+the drum flies the force does not change and nothing is added.
 """
 
 from __future__ import annotations
@@ -13,8 +13,10 @@ from numpy.typing import NDArray
 from roller_sim_ros.drum_soil import state as at
 from roller_sim_ros.drum_soil.renewal import renewed
 from roller_sim_ros.drum_soil.velocity_contact import (
-    KINK_SLOPE,
-    KINK_TIME,
+    BEND_CURVATURE,
+    BEND_SLOPE,
+    BEND_TIME,
+    free_motion,
     solve_part,
     split_step,
 )
@@ -27,37 +29,38 @@ AIR, LOADING, UNLOADING = at.AIR, at.LOADING, at.UNLOADING
 
 
 @inlined
-def _add_kink(
+def _add_bend(
     free: Array,
     free_rate: Array,
     base: int,
     memory: int,
+    ramp_2: Array,
     ramp: Array,
     step: Array,
-    theta: float,
     h: float,
-    change: float,
+    time: float,
+    slope: float,
+    curvature: float,
 ) -> None:
-    """Add what a change of slope at fraction θ of the last step adds to the coming motion.
+    """Add what a bend of the force at a time of the last step adds to the coming motion at k h.
 
-    Δσ H0 [R(t + (1−θ) h) − (1−θ) R(t + h) − θ R(t)] at the coming samples t = k h, with R between samples the cubic
-    through R and s.
+    P and R between samples are the cubics through their values and their derivatives' values.
     """
-    u = 1.0 - theta
-    h00 = (1.0 + 2.0 * u) * theta * theta - theta
-    h01 = u * u * (3.0 - 2.0 * u) - u
-    h10 = u * theta * theta * h
-    h11 = -u * u * theta * h
-    r00 = 6.0 * u * theta / h
-    r10 = theta * (1.0 - 3.0 * u) - theta
-    r11 = u * (3.0 * u - 2.0) - u
+    v = time / h
+    u = 1.0 - v
+    h00 = (1.0 + 2.0 * u) * v * v
+    h01 = u * u * (3.0 - 2.0 * u)
+    h10 = u * v * v * h
+    h11 = -u * u * v * h
+    r01 = 6.0 * u * v / h
+    r10 = v * (1.0 - 3.0 * u)
+    r11 = u * (3.0 * u - 2.0)
     for k in range(memory):
-        free[base + k] += change * (
-            h00 * ramp[k] + h01 * ramp[k + 1] + h10 * step[k] + h11 * step[k + 1]
-        )
-        free_rate[base + k] += change * (
-            r00 * (ramp[k + 1] - ramp[k]) + r10 * step[k] + r11 * step[k + 1]
-        )
+        ramp_u = h00 * ramp[k] + h01 * ramp[k + 1] + h10 * step[k] + h11 * step[k + 1]
+        ramp_2_u = h00 * ramp_2[k] + h01 * ramp_2[k + 1] + h10 * ramp[k] + h11 * ramp[k + 1]
+        step_u = r01 * (ramp[k + 1] - ramp[k]) + r10 * step[k] + r11 * step[k + 1]
+        free[base + k] += slope * ramp_u + curvature * ramp_2_u
+        free_rate[base + k] += slope * step_u + curvature * ramp_u
 
 
 @njit
@@ -69,13 +72,16 @@ def advance(
     sine: Array,
     cosine: Array,
     phase_angle: Array,
+    middle: Array,
+    ramp_2: Array,
     ramp: Array,
     step: Array,
-    force_answer: Array,
-    force_answer_rate: Array,
+    chord: Array,
+    chord_rate: Array,
+    bulge_rate: Array,
     free: Array,
     free_rate: Array,
-    kinks: Array,
+    bends: Array,
     out: Array,
 ) -> None:
     """Write the samples first … first + samples − 1 of a revolution and step over them.
@@ -90,18 +96,22 @@ def advance(
         Of the revolution.
     sine, cosine, phase_angle : ndarray, shape (samples per revolution + 1,)
         Of the eccentric at the revolution's samples.
-    ramp, step : ndarray, shape (memory + 1,)
-        H0 R and H0 s at k h.
-    force_answer, force_answer_rate : ndarray, shape (memory,)
-        (R_{k+1} − R_k) H0/h and its rate.
+    middle : ndarray, shape (3,)
+        P, R and s at h/2, H0 included here and below.
+    ramp_2, ramp, step : ndarray, shape (memory + 1,)
+        P, R and s at k h.
+    chord, chord_rate : ndarray, shape (memory,)
+        (R_{k+1} − R_k)/h and its rate: what a force that has risen evenly by 1 N adds.
+    bulge_rate : ndarray, shape (memory,)
+        Rate of what the bulge τ (h − τ) of the force adds; its value is chord_rate · h³/6.
     free, free_rate : ndarray, shape (memory + 1 + samples per revolution,)
         Coming free motion of the surface, from the present sample on; moved down on return.
-    kinks : ndarray, shape (MAX_SPLITS + 1, 2)
+    bends : ndarray, shape BENDS_SHAPE
         Scratch.
     out : ndarray, shape (OUT_ROWS, samples)
         Receives the samples.
     """
-    memory = force_answer.shape[0]
+    memory = chord.shape[0]
     h = constants[at.STEP]
     omega = constants[at.OMEGA]
     mass = constants[at.MASS]
@@ -111,7 +121,9 @@ def advance(
     total_rate = constants[at.ACCELERATION_RATE]
     vertical = constants[at.VERTICAL_SINE]
     rate = vertical * total_rate
-    answer_h = (ramp[1], step[1])
+    answer_middle = (middle[0], middle[1], middle[2])
+    answer_end = (ramp_2[1], ramp[1], step[1])
+    bulge = h * h * h / 6.0
     tuple_constants = (mass, static_load, plastic)
     d = state[at.DEPTH]
     v = state[at.VELOCITY]
@@ -138,23 +150,33 @@ def advance(
         out[at.OUT_DATUM, i] = datum
         out[at.OUT_PHASE, i] = phase
 
-        lift, rise = exciter_motion(h, omega, sine[j], cosine[j], amplitude, rate)
-        known = (free[i + 1], free_rate[i + 1])
-        slope, d_1, v_1, force_1, e_1, w_1 = solve_part(
+        motion = free_motion(
+            h, e, w, free[i + 1], free_rate[i + 1], free[i + 2], free_rate[i + 2]
+        )
+        known_end = (motion[2], motion[3])
+        known_middle = (
+            0.5 * (e + known_end[0])
+            + 0.125 * h * (w - known_end[1])
+            + 0.0625 * (motion[4] - 1.5 * motion[5]),
+            1.5 * (known_end[0] - e) / h - 0.25 * (w + known_end[1]) + 0.0625 * motion[5] / h,
+        )
+        sigma, kappa, d_1, v_1, force_1, e_1, w_1 = solve_part(
             phase,
             h,
             (d, v, force, q, datum),
             0.0,
-            lift,
-            rise,
-            known,
-            answer_h,
+            exciter_motion(0.5 * h, omega, sine[j], cosine[j], amplitude, rate),
+            exciter_motion(h, omega, sine[j], cosine[j], amplitude, rate),
+            known_middle,
+            known_end,
+            answer_middle,
+            answer_end,
             tuple_constants,
         )
         if phase == LOADING:
-            changes = slope < 0.0 or v_1 < w_1
+            changes = sigma < 0.0 or v_1 < w_1
         elif phase == UNLOADING:
-            changes = slope > 0.0 or force_1 < 0.0
+            changes = sigma > kappa * h or force_1 < 0.0
         else:
             changes = d_1 > e_1 + q + datum
         count = 0
@@ -165,16 +187,16 @@ def advance(
             d, v, force, e, w, q, datum, phase, count, unsettled = split_step(
                 (d, v, force, e, w, q, datum, phase),
                 h,
-                known,
-                answer_h,
+                motion,
+                (ramp[1], step[1]),
                 tuple_constants,
                 (omega, phase_angle[j], amplitude, rate),
-                kinks,
+                bends,
             )
             unsettled_steps += unsettled
         else:
             if phase == LOADING:
-                q += plastic * slope * h
+                q += plastic * (force_1 - force)
             elif phase == UNLOADING:
                 q = d_1 - e_1 - datum
             elif v < 0.0 and v_1 >= 0.0:
@@ -186,23 +208,27 @@ def advance(
         free[base + memory] = compliance * force_0
         free_rate[base + memory] = 0.0
         change = force - force_0
-        if change != 0.0:
+        if count > 0:
+            for n in range(count):
+                _add_bend(
+                    free,
+                    free_rate,
+                    base,
+                    memory,
+                    ramp_2,
+                    ramp,
+                    step,
+                    h,
+                    bends[n, BEND_TIME],
+                    bends[n, BEND_SLOPE],
+                    bends[n, BEND_CURVATURE],
+                )
+        elif phase != AIR:
+            bulge_value = bulge * kappa
             for k in range(memory):
-                free[base + k] += change * force_answer[k]
-                free_rate[base + k] += change * force_answer_rate[k]
-            free[base + memory] += change * compliance
-        for n in range(1, count):
-            _add_kink(
-                free,
-                free_rate,
-                base,
-                memory,
-                ramp,
-                step,
-                kinks[n, KINK_TIME] / h,
-                h,
-                kinks[n, KINK_SLOPE],
-            )
+                free[base + k] += change * chord[k] + bulge_value * chord_rate[k]
+                free_rate[base + k] += change * chord_rate[k] + kappa * bulge_rate[k]
+        free[base + memory] += change * compliance
 
     for k in range(memory + 1):
         free[k] = free[samples + k]

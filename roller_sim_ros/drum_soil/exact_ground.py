@@ -10,6 +10,7 @@ import numpy as np
 from roller_sim_ros.drum_soil import exact
 from roller_sim_ros.drum_soil import state as at
 from roller_sim_ros.drum_soil.ground import Array, Ground
+from roller_sim_ros.drum_soil.velocity_contact import BENDS_SHAPE
 from roller_sim_ros.exciter import Revolution
 from roller_sim_ros.half_space.transient import memory, step_and_ramp
 from roller_sim_ros.parameters import Soil
@@ -22,11 +23,8 @@ class ExactGround(Ground):
         super()._start()
         self._free = np.zeros(0)
         self._free_rate = np.zeros(0)
-        self._kinks = np.zeros((at.MAX_SPLITS + 1, 2))
-        self._ramp = np.zeros(0)
-        self._step = np.zeros(0)
-        self._force_answer = np.zeros(0)
-        self._force_answer_rate = np.zeros(0)
+        self._bends = np.zeros(BENDS_SHAPE)
+        self._answers: tuple[Array, ...] = ()
         # The free motion at the last change, for resampling: its step, its length, and the time for which
         # waves of an earlier soil are still under way.
         self._memory = 0
@@ -50,12 +48,10 @@ class ExactGround(Ground):
             free_s = max(free_s, (self._memory + 1) * self._old_step_s)
             self._old_waves_s = free_s
         count = math.ceil(free_s / h) + 1
-        step, ramp = _response(alpha, nu, h / unit, count + 1)
         compliance = self.strip.static_compliance
-        self._step = compliance * step
-        self._ramp = compliance * unit * ramp
-        self._force_answer = np.diff(self._ramp) / h
-        self._force_answer_rate = np.diff(self._step) / h
+        self._answers = tuple(
+            compliance * answer for answer in _answers(alpha, nu, unit, h, count + 1)
+        )
         self._resample(h, count, blend_s)
         self._old_step_s = h
         self._old_compliance = compliance
@@ -97,22 +93,48 @@ class ExactGround(Ground):
             self._sine,
             self._cosine,
             self._angle,
-            self._ramp,
-            self._step,
-            self._force_answer,
-            self._force_answer_rate,
+            *self._answers,
             self._free,
             self._free_rate,
-            self._kinks,
+            self._bends,
             out,
         )
         return out
 
 
 @lru_cache(maxsize=256)
-def _response(alpha: float, nu: float, spacing: float, count: int) -> tuple[Array, Array]:
-    """Return s and R at k·spacing (dimensionless), k = 0 … count − 1."""
-    return step_and_ramp(spacing * np.arange(count, dtype=np.float64), alpha, nu)
+def _answers(alpha: float, nu: float, unit: float, h: float, count: int) -> tuple[Array, ...]:
+    """Return, for H0 = 1, the arrays of the kernel from `middle` to `bulge_rate`.
+
+    Parameters
+    ----------
+    alpha, nu
+        Of the loaded strip and the soil.
+    unit
+        √(BL)/v_s, s.
+    h
+        Sample period, s.
+    count
+        Number of samples k h, memory + 1.
+    """
+    spacing = h / unit
+    times = spacing * np.append(np.arange(count, dtype=np.float64), 0.5)
+    step, ramp = step_and_ramp(times, alpha, nu)
+    step_middle, ramp_middle = step[-1], unit * ramp[-1]
+    step, ramp = step[:-1], unit * ramp[:-1]
+    # The integral of the cubics through R and s.
+    growth = 0.5 * h * (ramp[1:] + ramp[:-1]) - h * h / 12.0 * np.diff(step)
+    ramp_2 = np.concatenate(([0.0], np.cumsum(growth)))
+    ramp_2_middle = 0.25 * h * ramp_middle - h * h / 48.0 * step_middle
+    return (
+        np.array([ramp_2_middle, ramp_middle, step_middle]),
+        ramp_2,
+        ramp,
+        step,
+        np.diff(ramp) / h,
+        np.diff(step) / h,
+        h * (step[1:] + step[:-1]) - 2.0 * np.diff(ramp),
+    )
 
 
 def _hermite(times: Array, h: float, values: Array, rates: Array) -> tuple[Array, Array]:

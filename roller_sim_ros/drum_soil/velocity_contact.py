@@ -1,12 +1,16 @@
 """One step of drum and soil where the half space answers a force with a velocity (paper, eqs 11 to 14, Figure 13).
 
-For half spaces of relative degree 0 or 1 (`exact`): the elastic depth is known up to a force that is linear in each
-part of the step, e(τ) = e_known(τ) + Δσ H0 R(τ), with R the normalised ramp response. Loading is solved for the slope σ
-of the force at position level (the plastic layer makes that well posed), unloading at velocity level, the remaining
-position gap going into the plastic depth.
+For half spaces of relative degree 0 or 1 (`exact`). In each part of a step the force is a parabola,
+F(τ) = F + σ τ + κ τ (x − τ), and the elastic depth is known up to it:
 
-Within the step e_known is the cubic through its values and rates at both ends, and R the cubic through R and R' = s at
-0 and h: both are off by O(h⁴).
+    e(τ) = e_known(τ) + Δσ R(τ) − 2 κ P(τ),   R = H0 ∫ s dτ,   P = ∫ R dτ,
+
+with s the normalised step response and Δσ the change of slope at the part's start. Drum and soil agree at the part's middle
+and end (Simpson's points, so that smooth motion is right to O(h⁴)): in loading in position, which the plastic layer
+makes well posed; in unloading in velocity, the remaining position gap going into the plastic depth.
+
+Within the step e_known is the quintic through the free motion's values and rates at this sample and the next two, and
+R the cubic through R and s at 0 and h.
 """
 
 from __future__ import annotations
@@ -22,10 +26,17 @@ from roller_sim_ros.exciter.force import exciter_motion
 from roller_sim_ros.jit import inlined, njit
 
 Array = NDArray[np.float64]
+Pair = tuple[float, float]
+Drum = tuple[float, float, float, float, float]
+Constants = tuple[float, float, float]
+Free = tuple[float, float, float, float, float, float]
+Result = tuple[float, float, float, float, float, float, float]
 
-# Columns of the array that a step leaves its changes of slope in.
-KINK_TIME = 0
-KINK_SLOPE = 1
+# Columns of the array in which a step leaves where its force bends: time, jump of slope, jump of curvature.
+BEND_TIME = 0
+BEND_SLOPE = 1
+BEND_CURVATURE = 2
+BENDS_SHAPE = (MAX_SPLITS + 3, 3)
 
 # What ends a part of a step.
 _STEP_END = 0
@@ -35,7 +46,7 @@ _LIFT_OFF = 3
 _CONTACT = 4
 _APEX = 5
 
-_ROOT_TOLERANCE = 1e-7
+_ROOT_TOLERANCE = 1e-8
 _ROOT_ITERATIONS = 40
 
 
@@ -43,95 +54,141 @@ _ROOT_ITERATIONS = 40
 def solve_part(
     phase: int,
     x: float,
-    drum: tuple[float, float, float, float, float],
+    drum: Drum,
     slope_before: float,
-    lift: float,
-    rise: float,
-    known: tuple[float, float],
-    answer: tuple[float, float],
-    constants: tuple[float, float, float],
-) -> tuple[float, float, float, float, float, float]:
+    moved_middle: Pair,
+    moved_end: Pair,
+    known_middle: Pair,
+    known_end: Pair,
+    answer_middle: tuple[float, float, float],
+    answer_end: tuple[float, float, float],
+    constants: Constants,
+) -> Result:
     """Go on for x seconds in one phase.
 
     Parameters
     ----------
     phase
         LOADING, UNLOADING or AIR.
+    x
+        Length of the part, s.
     drum
-        d, v, F, q, D at the start of the part.
+        d, v, F, q, D at its start.
     slope_before
         Slope of the force that `known` goes on with.
-    lift, rise
-        Velocity and travel that the exciter adds, z up.
-    known
-        e and e' at the end of the part if the slope stayed.
-    answer
-        H0 R(x) and H0 s(x): what a unit change of slope adds to them.
+    moved_middle, moved_end
+        Velocity and travel that the exciter adds until the middle and the end, z up.
+    known_middle, known_end
+        e and e' there if the slope stayed.
+    answer_middle, answer_end
+        P, R and s there, H0 included.
     constants
         m_d, F_stat, p/F_stat.
 
     Returns
     -------
-    slope, depth, velocity, force, surface, surface_velocity : float
-        Slope of the force over the part, and the state at its end.
+    sigma, kappa, depth, velocity, force, surface, surface_velocity : float
+        The parabola of the force, and the state at the part's end.
     """
     d, v, force, q, datum = drum
-    e_known, w_known = known
-    ramp, step = answer
     mass, static_load, plastic = constants
+    ramp_2_y, ramp_y, step_y = answer_middle
+    ramp_2, ramp, step = answer_end
     sinking = (static_load - force) / mass
-    half_square = 0.5 * x * x
-    sixth_cube = half_square * x / 3.0
-    d_free = d + v * x + sinking * half_square - rise
-    v_free = v + sinking * x - lift
-    if phase == LOADING:
-        slope = (d_free - q - datum - e_known + slope_before * ramp) / (
-            sixth_cube / mass + plastic * x + ramp
+    x_2 = x * x
+    x_3 = x_2 * x / mass
+    x_4 = x_3 * x
+    d_free = d + x * v + 0.5 * x_2 * sinking - moved_end[1]
+    v_free = v + x * sinking - moved_end[0]
+    if phase == AIR:
+        return (
+            0.0,
+            0.0,
+            d_free,
+            v_free,
+            0.0,
+            known_end[0] - slope_before * ramp,
+            known_end[1] - slope_before * step,
         )
-    elif phase == UNLOADING:
-        slope = (v_free - w_known + slope_before * step) / (half_square / mass + step)
+    if phase == LOADING:
+        rest = q + datum
+        right = d_free - rest - known_end[0] + slope_before * ramp
+        d_y = d + 0.5 * x * v + 0.125 * x_2 * sinking - moved_middle[1]
+        right_y = d_y - rest - known_middle[0] + slope_before * ramp_y
+        a = x_3 / 6.0 + plastic * x + ramp
+        b = x_4 / 12.0 + x * ramp - 2.0 * ramp_2
+        a_y = x_3 / 48.0 + 0.5 * plastic * x + ramp_y
+        b_y = x_4 / 64.0 + 0.25 * plastic * x_2 + x * ramp_y - 2.0 * ramp_2_y
     else:
-        slope = 0.0
+        right = v_free - known_end[1] + slope_before * step
+        v_y = v + 0.5 * x * sinking - moved_middle[0]
+        right_y = v_y - known_middle[1] + slope_before * step_y
+        a = 0.5 * x_2 / mass + step
+        b = x_3 / 6.0 + x * step - 2.0 * ramp
+        a_y = 0.125 * x_2 / mass + step_y
+        b_y = x_3 / 12.0 + x * step_y - 2.0 * ramp_y
+    inverse = 1.0 / (a * b_y - a_y * b)
+    sigma = (right * b_y - right_y * b) * inverse
+    kappa = (a * right_y - a_y * right) * inverse
+    jump = sigma + kappa * x - slope_before
     return (
-        slope,
-        d_free - slope * sixth_cube / mass,
-        v_free - slope * half_square / mass,
-        force + slope * x,
-        e_known + (slope - slope_before) * ramp,
-        w_known + (slope - slope_before) * step,
+        sigma,
+        kappa,
+        d_free - sigma * x_3 / 6.0 - kappa * x_4 / 12.0,
+        v_free - 0.5 * sigma * x_2 / mass - kappa * x_3 / 6.0,
+        force + sigma * x,
+        known_end[0] + jump * ramp - 2.0 * kappa * ramp_2,
+        known_end[1] + jump * step - 2.0 * kappa * ramp,
     )
 
 
 @inlined
-def _ramp_and_step(x: float, h: float, ramp_h: float, step_h: float) -> tuple[float, float]:
-    """Return R(x) in s and s(x) for 0 ≤ x ≤ h from their values at h."""
+def free_motion(
+    h: float, e_0: float, w_0: float, e_1: float, w_1: float, e_2: float, w_2: float
+) -> Free:
+    """Return the quintic through values and rates of the free motion at 0, h and 2 h.
+
+    As the cubic through those at 0 and h and the two coefficients of u² (1 − u)² (a + b (u − 2)) beside it.
+    """
+    rise = e_1 - e_0
+    a = 0.25 * (e_2 - e_0 + 4.0 * rise - h * (2.0 * w_0 + 4.0 * w_1))
+    b = 0.25 * (h * w_2 - (-12.0 * rise + h * (5.0 * w_0 + 8.0 * w_1)) - 12.0 * a)
+    return e_0, w_0, e_1, w_1, a, b
+
+
+@inlined
+def _answer(x: float, h: float, ramp_h: float, step_h: float) -> tuple[float, float, float]:
+    """Return P, R and s at 0 ≤ x ≤ h from R and s at h."""
     u = x / h
+    ramp_2 = h * u * u * u * ((1.0 - 0.5 * u) * ramp_h + h * step_h * (0.25 * u - 1.0 / 3.0))
     ramp = u * u * ((3.0 - 2.0 * u) * ramp_h + (u - 1.0) * h * step_h)
     step = u * (6.0 * (1.0 - u) * ramp_h / h + (3.0 * u - 2.0) * step_h)
-    return ramp, step
+    return ramp_2, ramp, step
 
 
 @inlined
 def _known_surface(
     x: float,
     h: float,
-    ends: tuple[float, float, float, float],
-    answer_h: tuple[float, float],
-    kinks: Array,
+    free: Free,
+    answer_h: Pair,
+    bends: Array,
     count: int,
-) -> tuple[float, float]:
+) -> Pair:
     """Return e and e' at time x of the step if the force went on with its last slope."""
-    e_0, w_0, e_1, w_1 = ends
-    ramp_h, step_h = answer_h
+    e_0, w_0, e_1, w_1, a, b = free
     u = x / h
     v = 1.0 - u
     e = (1.0 + 2.0 * u) * v * v * e_0 + u * v * v * h * w_0
     e += u * u * (3.0 - 2.0 * u) * e_1 - u * u * v * h * w_1
     w = 6.0 * u * v * (e_1 - e_0) / h + v * (1.0 - 3.0 * u) * w_0 + u * (3.0 * u - 2.0) * w_1
-    for j in range(count):
-        ramp, step = _ramp_and_step(x - kinks[j, KINK_TIME], h, ramp_h, step_h)
-        e += kinks[j, KINK_SLOPE] * ramp
-        w += kinks[j, KINK_SLOPE] * step
+    more = a + b * (u - 2.0)
+    e += u * u * v * v * more
+    w += u * v * (2.0 * (1.0 - 2.0 * u) * more + u * v * b) / h
+    for j in range(count + 1):
+        ramp_2, ramp, step = _answer(x - bends[j, BEND_TIME], h, answer_h[0], answer_h[1])
+        e += bends[j, BEND_SLOPE] * ramp + bends[j, BEND_CURVATURE] * ramp_2
+        w += bends[j, BEND_SLOPE] * step + bends[j, BEND_CURVATURE] * ramp
     return e, w
 
 
@@ -141,42 +198,44 @@ def _part(
     t: float,
     x: float,
     slope_before: float,
-    drum: tuple[float, float, float, float, float],
+    drum: Drum,
     h: float,
-    ends: tuple[float, float, float, float],
-    answer_h: tuple[float, float],
-    constants: tuple[float, float, float],
+    free: Free,
+    answer_h: Pair,
+    constants: Constants,
     exciter: tuple[float, float, float, float],
-    kinks: Array,
+    bends: Array,
     count: int,
-) -> tuple[float, float, float, float, float, float]:
+) -> Result:
     """As `solve_part`, for the part of the step from t to t + x."""
-    omega, phase_angle, amplitude, amplitude_rate = exciter
+    omega, phase_angle, amplitude, rate = exciter
     angle = phase_angle + omega * t
-    lift, rise = exciter_motion(
+    sine, cosine = math.sin(angle), math.cos(angle)
+    amplitude_t = amplitude + rate * t
+    y = 0.5 * x
+    return solve_part(
+        phase,
         x,
-        omega,
-        math.sin(angle),
-        math.cos(angle),
-        amplitude + amplitude_rate * t,
-        amplitude_rate,
+        drum,
+        slope_before,
+        exciter_motion(y, omega, sine, cosine, amplitude_t, rate),
+        exciter_motion(x, omega, sine, cosine, amplitude_t, rate),
+        _known_surface(t + y, h, free, answer_h, bends, count),
+        _known_surface(t + x, h, free, answer_h, bends, count),
+        _answer(y, h, answer_h[0], answer_h[1]),
+        _answer(x, h, answer_h[0], answer_h[1]),
+        constants,
     )
-    known = _known_surface(t + x, h, ends, answer_h, kinks, count)
-    answer = _ramp_and_step(x, h, answer_h[0], answer_h[1])
-    return solve_part(phase, x, drum, slope_before, lift, rise, known, answer, constants)
 
 
 @inlined
-def _event_value(
-    event: int,
-    result: tuple[float, float, float, float, float, float],
-    q: float,
-    datum: float,
-) -> float:
+def _event_value(event: int, x: float, result: Result, q: float, datum: float) -> float:
     """Return the function that falls through zero at the event."""
-    _, d, v, force, e, w = result
+    sigma, kappa, d, v, force, e, w = result
     if event == _LOADING_ENDS:
         return v - w
+    if event == _RELOADING:
+        return kappa * x - sigma
     if event == _LIFT_OFF:
         return force
     if event == _CONTACT:
@@ -193,13 +252,13 @@ def _locate(
     phase: int,
     t: float,
     slope_before: float,
-    drum: tuple[float, float, float, float, float],
+    drum: Drum,
     h: float,
-    ends: tuple[float, float, float, float],
-    answer_h: tuple[float, float],
-    constants: tuple[float, float, float],
+    free: Free,
+    answer_h: Pair,
+    constants: Constants,
     exciter: tuple[float, float, float, float],
-    kinks: Array,
+    bends: Array,
     count: int,
 ) -> float:
     """Return the time into the part at which the event happens (regula falsi, Illinois variant)."""
@@ -215,9 +274,9 @@ def _locate(
         if abs(x - last) < _ROOT_TOLERANCE * h:
             break
         result = _part(
-            phase, t, x, slope_before, drum, h, ends, answer_h, constants, exciter, kinks, count
+            phase, t, x, slope_before, drum, h, free, answer_h, constants, exciter, bends, count
         )
-        f = _event_value(event, result, drum[3], drum[4])
+        f = _event_value(event, x, result, drum[3], drum[4])
         if f <= 0.0:
             high, f_high = x, f
             if side == -1:
@@ -237,11 +296,11 @@ def _locate(
 def split_step(
     state: tuple[float, float, float, float, float, float, float, int],
     h: float,
-    known_end: tuple[float, float],
-    answer_h: tuple[float, float],
-    constants: tuple[float, float, float],
+    free: Free,
+    answer_h: Pair,
+    constants: Constants,
     exciter: tuple[float, float, float, float],
-    kinks: Array,
+    bends: Array,
 ) -> tuple[float, float, float, float, float, float, float, int, int, int]:
     """Take one step in which phases change, each change located inside the step.
 
@@ -251,84 +310,72 @@ def split_step(
         d, v, F, e, e', q, D, phase at the sample.
     h
         Sample period, s.
-    known_end
-        e and e' at the next sample if the force stayed as it is.
+    free
+        From `free_motion`: how the surface would move if the force stayed as it is.
     answer_h
-        H0 R(h) and H0 s(h).
+        R and s at h, H0 included.
     constants
         m_d, F_stat, p/F_stat.
     exciter
         ω, phase at the sample, vertical exciter acceleration and its rate there.
-    kinks : ndarray, shape (MAX_SPLITS + 1, 2)
-        Receives the times in the step and the changes of slope there, the first at 0 from slope 0.
+    bends : ndarray, shape BENDS_SHAPE
+        Receives where the force bends, from a constant one before the step to a constant one after it.
 
     Returns
     -------
     d, v, F, e, e', q, D, phase : at the next sample
     count : int
-        Kinks written.
+        Bends written.
     unsettled : int
         1 when the phases did not settle within MAX_SPLITS parts.
     """
     d, v, force, e, w, q, datum, phase = state
     plastic = constants[2]
-    ends = (e, w, known_end[0], known_end[1])
     t = 0.0
     slope_before = 0.0
     count = 0
     unsettled = 0
+    bends[0, BEND_TIME] = 0.0
+    bends[0, BEND_SLOPE] = 0.0
+    bends[0, BEND_CURVATURE] = 0.0
     for split in range(MAX_SPLITS + 1):
         rest = h - t
         if rest <= 1e-9 * h:
             break
         drum = (d, v, force, q, datum)
         result = _part(
-            phase, t, rest, slope_before, drum, h, ends, answer_h, constants, exciter, kinks, count
+            phase, t, rest, slope_before, drum, h, free, answer_h, constants, exciter, bends, count
         )
-        slope = result[0]
         length = rest
         event = _STEP_END
+        at_start = 0.0
         if split == MAX_SPLITS:
             # The last part is taken as it stands, but for the sign of the force.
             unsettled = 1
         elif phase == LOADING:
-            if slope < 0.0:
-                phase = UNLOADING
-                continue
-            if result[2] < result[5]:
-                event = _LOADING_ENDS
+            event, at_start = _LOADING_ENDS, v - w
+        elif phase == AIR:
+            event, at_start = _CONTACT, e + q + datum - d
+        elif result[4] < 0.0:
+            event, at_start = _LIFT_OFF, force
+        else:
+            # The slope at the start is that of the parabola over the rest of the step.
+            event, at_start = _RELOADING, -result[0] - result[1] * rest
+        if event != _STEP_END:
+            at_end = _event_value(event, rest, result, q, datum)
+            if at_end < 0.0:
                 length = _locate(
-                    event, v - w, result[2] - result[5], rest, phase, t, slope_before, drum, h,
-                    ends, answer_h, constants, exciter, kinks, count,
+                    event, at_start, at_end, rest, phase, t, slope_before, drum, h, free,
+                    answer_h, constants, exciter, bends, count,
                 )
-        elif phase == UNLOADING:
-            if slope > 0.0:
-                # The mean slope over (0, x) crosses zero at about twice the time at which the slope does.
-                event = _RELOADING
-                half = _part(
-                    phase, t, 0.5 * rest, slope_before, drum, h, ends, answer_h, constants,
-                    exciter, kinks, count,
-                )
-                bend = slope - half[0]
+            elif event == _LOADING_ENDS and result[0] < 0.0:
                 length = 0.0
-                if bend > 0.0:
-                    length = min(rest, max(0.0, 0.5 * (rest - 0.5 * rest * slope / bend)))
-            elif result[3] < 0.0:
-                event = _LIFT_OFF
-                length = _locate(
-                    event, force, result[3], rest, phase, t, slope_before, drum, h, ends,
-                    answer_h, constants, exciter, kinks, count,
-                )
-        elif result[1] > result[4] + q + datum:
-            event = _CONTACT
-            length = _locate(
-                event, e + q + datum - d, result[4] + q + datum - result[1], rest, phase, t,
-                slope_before, drum, h, ends, answer_h, constants, exciter, kinks, count,
-            )
-        if v < 0.0 and result[2] >= 0.0 and split < MAX_SPLITS:
+            else:
+                event = _STEP_END
+        if v < 0.0 and result[3] >= 0.0 and unsettled == 0:
             apex = _locate(
-                _APEX, -v, -result[2], rest, phase, t, slope_before, drum, h, ends, answer_h,
-                constants, exciter, kinks, count,
+                _APEX, -v, -result[3], rest, phase, t, slope_before, drum, h, free, answer_h,
+                constants, exciter, bends, count,
             )
             if apex < length or event == _STEP_END:
                 event = _APEX
@@ -336,21 +383,23 @@ def split_step(
         if length > 0.0:
             if length < rest:
                 result = _part(
-                    phase, t, length, slope_before, drum, h, ends, answer_h, constants, exciter,
-                    kinks, count,
+                    phase, t, length, slope_before, drum, h, free, answer_h, constants, exciter,
+                    bends, count,
                 )
-                slope = result[0]
-            kinks[count, KINK_TIME] = t
-            kinks[count, KINK_SLOPE] = slope - slope_before
+            sigma, kappa, d, v, force_1, e, w = result
+            bends[count, BEND_SLOPE] = sigma + kappa * length - slope_before
+            bends[count, BEND_CURVATURE] -= 2.0 * kappa
             count += 1
-            slope_before = slope
-            _, d, v, force, e, w = result
+            slope_before = sigma - kappa * length
             t += length
+            bends[count, BEND_TIME] = t
+            bends[count, BEND_SLOPE] = 0.0
+            bends[count, BEND_CURVATURE] = 2.0 * kappa
             if phase == LOADING:
-                q += plastic * slope * length
+                q += plastic * (force_1 - force)
             elif phase == UNLOADING:
                 q = d - e - datum
-            force = max(force, 0.0)
+            force = max(force_1, 0.0)
         if event == _LOADING_ENDS:
             phase = UNLOADING
         elif event == _RELOADING or event == _CONTACT:
@@ -364,4 +413,5 @@ def split_step(
             q, datum = renewed(d, e, q, datum, force, phase, plastic)
         else:
             break
-    return d, v, force, e, w, q, datum, phase, count, unsettled
+    bends[count, BEND_SLOPE] = -slope_before
+    return d, v, force, e, w, q, datum, phase, count + 1, unsettled
