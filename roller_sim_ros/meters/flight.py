@@ -36,7 +36,7 @@ GRAVITY_SHARE = 0.95
 
 
 @dataclass(frozen=True)
-class Test:
+class FlightTest:
     """How a flight is looked for.
 
     Attributes
@@ -54,8 +54,8 @@ class Test:
     tolerance: float
 
 
-FINE = Test(step=2 / 128, length=4 / 128, tolerance=1e-3)
-COARSE = Test(step=4 / 128, length=9 / 128, tolerance=1e-2)
+FINE = FlightTest(step=2 / 128, length=4 / 128, tolerance=1e-3)
+COARSE = FlightTest(step=4 / 128, length=9 / 128, tolerance=1e-2)
 
 
 def lifts(repetitions: NDArray[np.float64], samples_per_revolution: int) -> bool | None:
@@ -84,19 +84,19 @@ def lifts(repetitions: NDArray[np.float64], samples_per_revolution: int) -> bool
 
 
 def _fall(
-    motion: NDArray[np.float64], test: Test, samples_per_revolution: int
+    motion: NDArray[np.float64], test: FlightTest, samples_per_revolution: int
 ) -> NDArray[np.float64]:
     """Return c_n of a motion taken as periodic, shape as given, m/s²."""
     step = max(1, round(test.step * samples_per_revolution))
     cosine = math.cos(2.0 * math.pi * step / samples_per_revolution)
     around = np.concatenate([motion[-step:], motion, motion[:step]])
-    fall = around[2 * step :] + around[: -2 * step]
+    fall: NDArray[np.float64] = around[2 * step :] + around[: -2 * step]
     fall -= 2.0 * cosine * motion
     fall /= 2.0 * (1.0 - cosine)
     return fall
 
 
-def _has_level(fall: NDArray[np.float64], test: Test, samples_per_revolution: int) -> bool:
+def _has_level(fall: NDArray[np.float64], test: FlightTest, samples_per_revolution: int) -> bool:
     """Whether c_n has a level stretch at or below −g."""
     length = max(3, round(test.length * samples_per_revolution))
     around = np.concatenate([fall, fall[: length - 1]])

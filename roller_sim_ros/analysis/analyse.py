@@ -1,0 +1,381 @@
+"""Evaluation of a bag, from its first message to its last, in one pass and bounded memory."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+from itertools import islice
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from roller_sim_ros.analysis.bag import Bag, BagError, open_bag
+from roller_sim_ros.analysis.comparison import Comparison, Matcher
+from roller_sim_ros.analysis.continuity import Continuity
+from roller_sim_ros.analysis.excerpt import Excerpt, ExcerptKeeper
+from roller_sim_ros.analysis.history import History
+from roller_sim_ros.analysis.imu import PROBE_SAMPLES, ImuRate, ImuReader, find_rate
+from roller_sim_ros.analysis.samples import (
+    IMU_TYPE,
+    NANOSECONDS,
+    AccelerationReader,
+    Piece,
+    stamp_ns,
+)
+from roller_sim_ros.analysis.topics import Selection, select
+from roller_sim_ros.meters import CompactionMeter, MeterValue, Status
+from roller_sim_ros.parameters import SAMPLES_PER_REVOLUTION, Meter
+
+PROGRESS_MESSAGES = 1000
+"""Messages between two reports of progress."""
+
+DRIFT_RAD = 0.3
+"""Turn of an Imu stream's fundamental within a window at which its frequency is not what was found."""
+
+RECORDED, TRUE = "recorded", "true"
+"""What is compared with the values computed anew; also the prefix of its columns in the history."""
+
+
+@dataclass(frozen=True)
+class Options:
+    """How a bag is evaluated.
+
+    Attributes
+    ----------
+    topic, meter : str or None
+        Topic with the acceleration, and with the meter values to compare with; found when None.
+    window_revolutions : int or None
+        Even number of revolutions per value; that of the recorded meter, or the default, when None.
+    noise_floor_m_s2 : float
+        Amplitude at the excitation frequency below which there is no value.
+    samples_per_revolution : int
+        Samples per revolution of a DrumAcceleration stream.
+    excitation_hz : float or None
+        Excitation frequency of an Imu stream; found from its spectrum when None.
+    """
+
+    topic: str | None = None
+    meter: str | None = None
+    window_revolutions: int | None = None
+    noise_floor_m_s2: float = Meter.noise_floor_m_s2
+    samples_per_revolution: int = SAMPLES_PER_REVOLUTION
+    excitation_hz: float | None = None
+
+
+@dataclass
+class Analysis:
+    """What a bag says.
+
+    Attributes
+    ----------
+    path : Path
+        The bag.
+    damage : str
+        What kept it from being read to its end; empty when nothing did.
+    selection : Selection
+        Topics that were read.
+    imu_rate : ImuRate or None
+        Rate of an Imu stream.
+    window_revolutions, samples_per_revolution : int
+        As evaluated.
+    messages : dict
+        Messages read, by topic.
+    start_ns, end_ns : int
+        Stamps of the first and after the last sample, ns.
+    stamp_error_s : float
+        Largest deviation of a stamp from the previous block's stamp plus its samples' time.
+    continuity : Continuity
+        Gaps and the like.
+    history : History
+        Meter values computed anew, and what was recorded beside them.
+    meter, truth : Comparison or None
+        Recorded meter and truth against the values computed anew.
+    cmv : Comparison or None
+        The plain CMV topic against the meter message before it, or against the values computed anew when
+        no meter was recorded.
+    excerpt : Excerpt or None
+        The last settled revolutions.
+    specific_force : bool
+        Whether the acceleration contains gravity.
+    warnings : list of str
+        What a reader should know.
+    """
+
+    path: Path
+    selection: Selection
+    window_revolutions: int
+    samples_per_revolution: int
+    imu_rate: ImuRate | None = None
+    damage: str = ""
+    messages: dict[str, int] = field(default_factory=dict)
+    start_ns: int = 0
+    end_ns: int = 0
+    stamp_error_s: float = 0.0
+    continuity: Continuity = field(default_factory=lambda: Continuity(0))
+    history: History = field(default_factory=History)
+    meter: Comparison | None = None
+    truth: Comparison | None = None
+    cmv: Comparison | None = None
+    excerpt: Excerpt | None = None
+    specific_force: bool = False
+    warnings: list[str] = field(default_factory=list)
+
+    @property
+    def duration_s(self) -> float:
+        """Time from the first sample to the end of the last."""
+        return (self.end_ns - self.start_ns) / NANOSECONDS
+
+
+def analyse(
+    path: Path,
+    options: Options | None = None,
+    on_progress: Callable[[float], None] | None = None,
+) -> Analysis:
+    """Evaluate a bag.
+
+    Parameters
+    ----------
+    path : Path
+        MCAP file or rosbag2 folder.
+    options : Options, optional
+        How.
+    on_progress : callable, optional
+        Called now and then with the share that is done, 0 to 1.
+
+    Returns
+    -------
+    Analysis
+        Of a damaged bag: of what could be read, with `damage` set.
+
+    Raises
+    ------
+    BagError
+        If nothing can be evaluated.
+    """
+    options = options or Options()
+    bag = open_bag(path)
+    if bag.damage and not any(topic.count for topic in bag.topics.values()):
+        raise BagError(f"{path}: {bag.damage} before its first message: nothing can be read")
+    selection = select(path, bag.topics, options.topic, options.meter)
+    try:
+        return _Pass(path, bag, selection, options).run(on_progress or _ignore)
+    except BagError as error:
+        text = str(error)
+        raise BagError(text if text.startswith(str(path)) else f"{path}: {text}") from None
+
+
+class _Pass:
+    """One pass over a bag."""
+
+    def __init__(self, path: Path, bag: Bag, selection: Selection, options: Options) -> None:
+        self._bag = bag
+        self._selection = selection
+        rate = None
+        count = options.samples_per_revolution
+        self._reader: AccelerationReader | ImuReader = AccelerationReader()
+        if selection.source.type == IMU_TYPE:
+            rate = self._imu_rate(options.excitation_hz)
+            count = rate.samples_per_revolution
+            self._reader = ImuReader(rate)
+        window = options.window_revolutions or self._recorded_window()
+        self._meter = CompactionMeter(window, options.noise_floor_m_s2, count)
+        self._kept = ExcerptKeeper(count)
+        self._clean = 0
+        self._count = count
+        self._next_stamp: tuple[int, int] | None = None
+        self._recorded_cmv: float | None = None
+        self._last: MeterValue | None = None
+        self._samples_per_turn = 0.0
+        self._matchers: dict[str, Matcher] = {}
+        self.result = Analysis(
+            path=path,
+            selection=selection,
+            window_revolutions=window,
+            samples_per_revolution=count,
+            imu_rate=rate,
+            specific_force=rate is not None,
+            continuity=Continuity(window * count),
+            meter=self._comparison(RECORDED, selection.meter),
+            truth=self._comparison(TRUE, selection.truth),
+            cmv=Comparison() if selection.cmv else None,
+        )
+
+    def _comparison(self, kind: str, topic: str) -> Comparison | None:
+        """Return a comparison, filled as values come, when its topic is there."""
+        if not topic:
+            return None
+        self._matchers[kind] = Matcher(Comparison())
+        return self._matchers[kind].comparison
+
+    def _imu_rate(self, excitation_hz: float | None) -> ImuRate:
+        """Look at the first samples of an Imu stream."""
+        name = self._selection.source.name
+        probe = [
+            (stamp_ns(received.message), float(received.message.linear_acceleration.z))
+            for received in islice(self._bag.messages({name}), PROBE_SAMPLES)
+        ]
+        return find_rate([item[0] for item in probe], [item[1] for item in probe], excitation_hz)
+
+    def _recorded_window(self) -> int:
+        """Return the window of the recorded meter, the default when there is none."""
+        if self._selection.meter:
+            for received in self._bag.messages({self._selection.meter}):
+                return int(received.message.window_revolutions)
+        return Meter.window_revolutions
+
+    def run(self, on_progress: Callable[[float], None]) -> Analysis:
+        """Read everything and return the result."""
+        result = self.result
+        handlers: dict[str, Callable[[Any], None]] = {
+            self._selection.source.name: self._on_source,
+            self._selection.meter: self._on_meter,
+            self._selection.cmv: self._on_cmv,
+            self._selection.truth: self._on_truth,
+        }
+        for number, received in enumerate(self._bag.messages(self._selection.names)):
+            result.messages[received.topic] = result.messages.get(received.topic, 0) + 1
+            handlers[received.topic](received.message)
+            if number % PROGRESS_MESSAGES == 0:
+                on_progress(self._bag.progress)
+        if isinstance(self._reader, ImuReader):
+            for piece in self._reader.flush():
+                self._on_piece(piece)
+        if not result.continuity.samples:
+            raise BagError(f"no samples on {self._selection.source.name} could be read")
+        for matcher in self._matchers.values():
+            matcher.finish()
+        result.excerpt = self._kept.excerpt()
+        result.damage = self._bag.damage
+        self._warn()
+        on_progress(1.0)
+        return result
+
+    def _on_source(self, message: Any) -> None:
+        for piece in self._reader.read(message):
+            self._on_piece(piece)
+
+    def _on_piece(self, piece: Piece) -> None:
+        result = self.result
+        if result.continuity.blocks == 0:
+            result.start_ns = piece.stamp_ns
+        result.specific_force = piece.specific_force
+        result.continuity.feed(piece.first_sample, len(piece))
+        end = piece.first_sample + len(piece)
+        if self._next_stamp is not None and self._next_stamp[0] == piece.first_sample:
+            deviation = abs(piece.stamp_ns - self._next_stamp[1]) / NANOSECONDS
+            result.stamp_error_s = max(result.stamp_error_s, deviation)
+        self._next_stamp = (end, piece.stamp_of(end))
+        result.end_ns = max(result.end_ns, piece.stamp_of(end))
+        if piece.excitation_hz > 0.0:
+            self._samples_per_turn = 1.0 / (piece.sample_period_s * piece.excitation_hz)
+        self._kept.acceleration.write(
+            piece.first_sample, np.stack([piece.vertical, piece.horizontal])
+        )
+        for value in self._meter.feed(
+            piece.first_sample,
+            piece.vertical,
+            piece.sample_period_s,
+            piece.excitation_hz,
+            piece.phase_rad,
+            piece.phase_increment_rad,
+        ):
+            self._on_value(value, piece)
+
+    def _on_value(self, value: MeterValue, piece: Piece) -> None:
+        time_s = (piece.stamp_of(value.last_sample) - self.result.start_ns) / NANOSECONDS
+        row = self.result.history.append(value, time_s)
+        self._last = value
+        if value.status is Status.NONE:
+            self._clean += 1
+            revolutions = self.result.window_revolutions + self._clean - 1
+            self._kept.settled(value.last_sample, revolutions, value.excitation_frequency)
+        else:
+            self._clean = 0
+            self._kept.interrupted()
+        whole = not value.status & (Status.WINDOW_FILLING | Status.GAP)
+        for kind, matcher in self._matchers.items():
+            found = matcher.computed(value.last_sample, row, _quantities(value), window_whole=whole)
+            self._note(kind, found)
+
+    def _on_meter(self, message: Any) -> None:
+        self._recorded_cmv = float(message.cmv)
+        matcher = self._matchers[RECORDED]
+        recorded = {
+            "cmv": float(message.cmv),
+            "rmv": float(message.rmv),
+            "fundamental_amplitude": float(message.fundamental_amplitude),
+            "period": int(message.period),
+            "mode": int(message.mode),
+        }
+        self._note(RECORDED, matcher.recorded(int(message.last_sample), recorded))
+
+    def _on_truth(self, message: Any) -> None:
+        first, count = int(message.sequence), len(message.soil_force)
+        height = np.asarray(message.drum_height, dtype=np.float64) + float(message.datum)
+        self._kept.truth.write(first, np.stack([message.soil_force, height, message.contact_state]))
+        if (first + count) % self._count == 0:
+            matcher = self._matchers[TRUE]
+            recorded = {
+                "cmv": float(message.cmv),
+                "rmv": float(message.rmv),
+                "period": int(message.period),
+                "mode": int(message.mode),
+            }
+            self._note(TRUE, matcher.recorded(first + count - 1, recorded))
+
+    def _on_cmv(self, message: Any) -> None:
+        comparison = self.result.cmv
+        if comparison is None:
+            return
+        before = self._recorded_cmv
+        if not self._selection.meter and self._last is not None:
+            before = self._last.cmv
+        if before is None:
+            comparison.unmatched += 1
+        else:
+            comparison.add({"cmv": float(message.data)}, {"cmv": before})
+
+    def _note(self, kind: str, found: tuple[int, Mapping[str, float]] | None) -> None:
+        """Write a matched value into the history."""
+        if found is not None:
+            row, values = found
+            self.result.history.note(
+                row, {f"{kind}_cmv": values["cmv"], f"{kind}_rmv": values["rmv"]}
+            )
+
+    def _warn(self) -> None:
+        """Say what makes the values less than they seem."""
+        result = self.result
+        status = result.history.integers("status")
+        if len(status) and np.all(status & Status.WINDOW_FILLING):
+            per_turn = round(self._samples_per_turn)
+            if per_turn not in (0, self._count) and abs(self._samples_per_turn - per_turn) < 1e-6:
+                result.warnings.append(
+                    f"the stream has {per_turn} samples per revolution, not {self._count}: evaluate it with "
+                    f"--samples-per-rev {per_turn}"
+                )
+        if result.imu_rate is not None:
+            phase = np.exp(1j * result.history.floats("fundamental_phase_rad"))
+            window = result.window_revolutions
+            turn = np.abs(np.angle(phase[window:] * np.conj(phase[:-window])))
+            if np.count_nonzero(turn > DRIFT_RAD) * 5 > np.count_nonzero(np.isfinite(turn)) > 0:
+                result.warnings.append(
+                    "the fundamental's phase drifts: the excitation does not stay at "
+                    f"{result.imu_rate.excitation_hz:.3f} Hz, so the values are not exact"
+                )
+
+
+def _quantities(value: MeterValue) -> dict[str, float]:
+    """Return what of a value is compared."""
+    return {
+        "cmv": value.cmv,
+        "rmv": value.rmv,
+        "fundamental_amplitude": value.fundamental_amplitude,
+        "period": value.period,
+        "mode": int(value.mode),
+    }
+
+
+def _ignore(_share: float) -> None:
+    """Show no progress."""

@@ -1,0 +1,216 @@
+"""``roller-sim analyze``: what a trace says."""
+
+from __future__ import annotations
+
+import argparse
+import json
+import sys
+from collections.abc import Callable
+from pathlib import Path
+
+from roller_sim_ros.errors import RollerSimError
+from roller_sim_ros.parameters import PARAMETERS, SAMPLES_PER_REVOLUTION
+
+DESCRIPTION = """\
+Evaluate a trace: count gaps, duplicates and blocks out of order, compute CMV, RMV, period and mode
+anew from the acceleration, once a revolution, and compare them with the values recorded beside it
+and with the truth. ROS 2 need not be installed; the message types come from the bag.
+
+BAG is an MCAP file or a rosbag2 folder. It has to hold roller_sim_ros/msg/DrumAcceleration, or
+sensor_msgs/msg/Imu with a whole number of samples per revolution of a constant excitation (128 for
+the simulated roller).
+"""
+
+EPILOG = """\
+example:
+  roller-sim analyze trace.mcap --plot trace.png --csv trace.csv
+
+The exit code is 1 when the bag cannot be read, or not to its end: then what was read is shown all the
+same. Differences between recorded and computed values are shown, not judged.
+"""
+
+
+def main(argv: list[str] | None = None) -> int:
+    """Run the command.
+
+    Parameters
+    ----------
+    argv : list of str, optional
+        Arguments; those of the process when left out.
+
+    Returns
+    -------
+    int
+        0.
+
+    Raises
+    ------
+    RollerSimError
+        If the bag cannot be read to its end, or an output not be written.
+    """
+    arguments = _parser().parse_args(argv)
+    # What takes long to import comes after --help.
+    from roller_sim_ros.analysis.analyse import Options, analyse
+    from roller_sim_ros.analysis.report import as_object, as_table
+
+    options = Options(
+        topic=arguments.topic,
+        meter=arguments.meter,
+        window_revolutions=arguments.window_revolutions,
+        noise_floor_m_s2=arguments.noise_floor,
+        samples_per_revolution=arguments.samples_per_rev,
+        excitation_hz=arguments.frequency_hz,
+    )
+    analysis = analyse(arguments.bag, options, _progress(arguments.progress))
+    report = as_object(analysis)
+    if arguments.json is not None:
+        _write_json(report, arguments.json)
+    if arguments.json != "-":
+        print(as_table(report))
+    if arguments.csv is not None:
+        from roller_sim_ros.analysis.table_file import write_csv
+
+        write_csv(analysis.history, arguments.csv)
+    if arguments.plot is not None:
+        from roller_sim_ros.analysis.figure import write_figure
+
+        write_figure(analysis, arguments.plot)
+    if analysis.damage:
+        raise RollerSimError(
+            f"{arguments.bag}: {analysis.damage}; {sum(analysis.messages.values())} messages over "
+            f"{analysis.duration_s:.3f} s were read before that; "
+            f"`roller-sim recover {arguments.bag}` makes it whole"
+        )
+    return 0
+
+
+def _parser() -> argparse.ArgumentParser:
+    parser = argparse.ArgumentParser(
+        prog="roller-sim analyze",
+        description=DESCRIPTION,
+        epilog=EPILOG,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+    )
+    parser.add_argument("bag", metavar="BAG", type=Path, help="MCAP file or rosbag2 folder")
+    parser.add_argument(
+        "--topic",
+        metavar="NAME",
+        help="topic with the acceleration, as in /roller1/drum/acceleration; needed when the bag holds "
+        "several",
+    )
+    parser.add_argument(
+        "--meter",
+        metavar="NAME",
+        help="topic with the meter values to compare with: CompactionMeter, or std_msgs/Float64 taken for "
+        "CMV (default: meter and cmv beside the acceleration)",
+    )
+    parser.add_argument(
+        "--json",
+        metavar="FILE",
+        help="write the result as one JSON object; -: to the standard output",
+    )
+    parser.add_argument(
+        "--csv", metavar="FILE", type=Path, help="write the meter values, one row a revolution"
+    )
+    parser.add_argument(
+        "--plot",
+        metavar="FILE",
+        type=Path,
+        help="draw acceleration, spectrum, force against displacement (where the bag holds the truth) and "
+        "meter values over time; png, pdf or svg",
+    )
+    parser.add_argument(
+        "--window-revolutions",
+        metavar="N",
+        type=_even,
+        help="revolutions per meter value, an even number (default: that of the recorded meter, else "
+        f"{PARAMETERS['meter.window_revolutions'][1]})",
+    )
+    parser.add_argument(
+        "--noise-floor",
+        metavar="A",
+        type=_not_negative,
+        default=PARAMETERS["meter.noise_floor_m_s2"][1],
+        help="amplitude at the excitation frequency below which there is no value, m/s² "
+        "(default: %(default)s)",
+    )
+    parser.add_argument(
+        "--samples-per-rev",
+        metavar="N",
+        type=_samples,
+        default=SAMPLES_PER_REVOLUTION,
+        help="samples per revolution of a DrumAcceleration trace (default: %(default)s)",
+    )
+    parser.add_argument(
+        "--frequency-hz",
+        metavar="HZ",
+        type=_positive,
+        help="excitation frequency of an Imu stream, Hz (default: found from its spectrum)",
+    )
+    parser.add_argument(
+        "--progress",
+        action="store_true",
+        help="show progress on the standard error also when that is no terminal",
+    )
+    return parser
+
+
+def _even(text: str) -> int:
+    number = int(text)
+    if number < 2 or number % 2:
+        raise argparse.ArgumentTypeError(f"{number} is not a positive even number")
+    return number
+
+
+def _samples(text: str) -> int:
+    number = int(text)
+    if number < 16:
+        raise argparse.ArgumentTypeError(f"{number} is less than 16")
+    return number
+
+
+def _not_negative(text: str) -> float:
+    number = float(text)
+    if not 0.0 <= number < float("inf"):
+        raise argparse.ArgumentTypeError(f"{text} is not a number of at least 0")
+    return number
+
+
+def _positive(text: str) -> float:
+    number = float(text)
+    if not 0.0 < number < float("inf"):
+        raise argparse.ArgumentTypeError(f"{text} is not a positive number")
+    return number
+
+
+def _progress(always: bool) -> Callable[[float], None] | None:
+    """Return what shows the progress, at most once per percent."""
+    terminal = sys.stderr.isatty()
+    if not (terminal or always):
+        return None
+    shown = -1
+
+    def show(share: float) -> None:
+        nonlocal shown
+        percent = int(100.0 * share)
+        if percent == shown:
+            return
+        shown = percent
+        if terminal:
+            end = "\r\x1b[K" if percent >= 100 else ""
+            print(f"\rreading {percent} %", end=end, file=sys.stderr, flush=True)
+        else:
+            print(f"reading {percent} %", file=sys.stderr, flush=True)
+
+    return show
+
+
+def _write_json(report: dict[str, object], name: str) -> None:
+    text = json.dumps(report, indent=2, ensure_ascii=False, allow_nan=False)
+    if name == "-":
+        print(text)
+        return
+    try:
+        Path(name).write_text(text + "\n", encoding="utf-8")
+    except OSError as error:
+        raise RollerSimError(f"{name}: cannot be written: {error.strerror or error}") from None
