@@ -13,6 +13,8 @@ Function = TypeVar("Function", bound=Callable[..., Any])
 
 DISABLE_VARIABLE = "ROLLER_SIM_NO_JIT"
 CACHE_VARIABLE = "NUMBA_CACHE_DIR"
+KERNEL_FOLDERS = (".", "exciter", "drum_soil", "half_space")
+"""Where compiled functions may live."""
 
 if os.environ.get(DISABLE_VARIABLE):
     JIT_ACTIVE = False
@@ -27,7 +29,7 @@ else:
 
 @lru_cache(maxsize=1)
 def cache_directory() -> str:
-    """Return where compiled kernels are kept: one folder for each state of the package's sources.
+    """Return where compiled kernels are kept: one folder for each state of the kernels' sources.
 
     Numba looks only at the file of the function itself to decide whether its cache is stale, not at those of the
     functions compiled into it; so the sources' fingerprint is part of the path. The folder is inside the
@@ -35,8 +37,9 @@ def cache_directory() -> str:
     """
     package = Path(__file__).resolve().parent
     digest = hashlib.sha256()
-    for source in sorted(package.rglob("*.py")):
-        digest.update(source.read_bytes())
+    for folder in KERNEL_FOLDERS:
+        for source in sorted((package / folder).glob("*.py")):
+            digest.update(source.read_bytes())
     name = f"roller-sim-{digest.hexdigest()[:16]}"
     if os.access(package, os.W_OK):
         return str(package / "__pycache__" / name)

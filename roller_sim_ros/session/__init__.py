@@ -1,0 +1,22 @@
+"""The session: one object that every driver steps, whether in real time, offline or in lock step."""
+
+from roller_sim_ros.session.block import Block
+from roller_sim_ros.session.command import (
+    Applied,
+    CommandRefused,
+    ExciterCommand,
+    ExciterStatus,
+    Refusal,
+)
+from roller_sim_ros.session.session import Session, warm_up
+
+__all__ = [
+    "Applied",
+    "Block",
+    "CommandRefused",
+    "ExciterCommand",
+    "ExciterStatus",
+    "Refusal",
+    "Session",
+    "warm_up",
+]

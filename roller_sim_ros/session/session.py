@@ -1,0 +1,219 @@
+"""The whole roller, stepped block by block."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import replace
+
+import numpy as np
+
+from roller_sim_ros.drum_soil import GROUNDS
+from roller_sim_ros.drum_soil import state as at
+from roller_sim_ros.errors import RollerSimError
+from roller_sim_ros.exciter import ExciterDrive, Revolution
+from roller_sim_ros.parameters import Configuration, ParameterError, Value, lookup
+from roller_sim_ros.session.block import Block
+from roller_sim_ros.session.command import Applied, ExciterCommand, ExciterStatus
+
+TWO_PI = 2.0 * math.pi
+_COMMAND_PARAMETERS = ("exciter.vibrate", "exciter.frequency_hz", "exciter.amplitude_m")
+
+
+class Session:
+    """One run of the roller: site, exciter, drum and soil. Knows no clock and no ROS.
+
+    Starts in static equilibrium, eccentric at phase zero.
+
+    Parameters
+    ----------
+    configuration : Configuration
+        What is simulated.
+    run_up : bool
+        Start the exciter from standstill, following its rate limits; otherwise at once at full frequency and
+        amplitude.
+
+    Attributes
+    ----------
+    configuration : Configuration
+        With all changes that took effect.
+    """
+
+    def __init__(self, configuration: Configuration, *, run_up: bool = False) -> None:
+        self.configuration = configuration
+        self._samples = configuration.sampling.samples_per_revolution
+        self._drive = ExciterDrive(
+            configuration.exciter,
+            configuration.sampling.floor_hz,
+            run_up=run_up,
+            samples=self._samples,
+        )
+        self._ground = GROUNDS[configuration.half_space.model](
+            configuration.machine,
+            configuration.soil,
+            configuration.half_space,
+            configuration.exciter,
+            self._samples,
+        )
+        self._next_sample = 0
+        self._revolution_start_s = 0.0
+        self._revolution: Revolution | None = None
+        self._pending: dict[str, Value] = {}
+        self._applied: list[Applied] = []
+        self._command_sample = 0
+
+    @property
+    def next_sample(self) -> int:
+        """Index of the sample that the next `advance` begins with."""
+        return self._next_sample
+
+    @property
+    def samples_per_revolution(self) -> int:
+        """Samples between the points at which commands and changes take effect."""
+        return self._samples
+
+    @property
+    def unsettled_steps(self) -> int:
+        """Steps whose phase changes did not settle; 0 in all sound runs."""
+        return int(self._ground.state[at.UNSETTLED_STEPS])
+
+    def command_exciter(self, *, vibrate: bool, frequency_hz: float, amplitude_m: float) -> None:
+        """Command the exciter; takes effect at the next multiple of 128 samples.
+
+        Raises
+        ------
+        CommandRefused
+            If a value is refused; the roller carries on as before.
+        """
+        command = ExciterCommand(vibrate, frequency_hz, amplitude_m)
+        values = (command.vibrate, command.frequency_hz, command.amplitude_m)
+        self._pending.update(zip(_COMMAND_PARAMETERS, values, strict=True))
+
+    def change(self, values: Mapping[str, Value]) -> None:
+        """Change live parameters; takes effect at the next multiple of 128 samples.
+
+        Parameters
+        ----------
+        values : mapping
+            {dotted name: SI value}. All are taken or none.
+
+        Raises
+        ------
+        ParameterError
+            If a name is unknown, a parameter is not live, or a value is refused.
+        """
+        for name, value in values.items():
+            quantity, _ = lookup(name, value)
+            if not quantity.live:
+                raise ParameterError(name, value, "cannot change while the roller runs")
+        checked = self.configuration.changed({**self._pending, **values}).flat()
+        self._pending.update({name: checked[name] for name in values})
+
+    def applied(self) -> list[Applied]:
+        """Return what took effect since the last call, in the order of effect."""
+        taken, self._applied = self._applied, []
+        return taken
+
+    def exciter_status(self) -> ExciterStatus:
+        """Return what the exciter does and what it was told."""
+        exciter = self.configuration.exciter
+        drive = self._drive
+        return ExciterStatus(
+            vibrating=exciter.vibrate,
+            commanded_frequency_hz=exciter.frequency_hz,
+            commanded_amplitude_m=exciter.amplitude_m,
+            frequency_hz=drive.frequency_hz,
+            amplitude_m=drive.amplitude_m,
+            force_amplitude_n=self.configuration.machine.drum_mass_kg
+            * drive.amplitude_m
+            * (TWO_PI * drive.frequency_hz) ** 2,
+            applied_sample=self._command_sample,
+        )
+
+    def advance(self, samples: int) -> Block:
+        """Step over the next samples.
+
+        Parameters
+        ----------
+        samples : int
+            At least 1, at most what is left of the current 128 samples.
+
+        Returns
+        -------
+        Block
+            The samples; the same ones whatever the sizes of the blocks.
+
+        Raises
+        ------
+        RollerSimError
+            If `samples` would reach over a multiple of 128 samples.
+        """
+        first = self._next_sample % self._samples
+        left = self._samples - first
+        if not 1 <= samples <= left:
+            raise RollerSimError(
+                f"advance({samples}): must be 1 … {left}, what is left until sample "
+                f"{self._next_sample + left}, where frequency and soil may change"
+            )
+        if first == 0:
+            self._begin_revolution()
+        revolution = self._revolution
+        assert revolution is not None  # set by _begin_revolution at the first sample
+        out = self._ground.advance(first, samples)
+        soil = self.configuration.soil
+        block = Block(
+            first_sample=self._next_sample,
+            time_s=self._revolution_start_s + first * revolution.sample_period_s,
+            sample_period_s=revolution.sample_period_s,
+            excitation_hz=revolution.frequency_hz,
+            eccentric_phase_rad=math.fmod(
+                revolution.phase_rad + first * revolution.phase_increment_rad, TWO_PI
+            ),
+            phase_increment_rad=revolution.phase_increment_rad,
+            acceleration_vertical=out[at.OUT_VERTICAL],
+            acceleration_horizontal=out[at.OUT_HORIZONTAL],
+            soil_force=out[at.OUT_FORCE],
+            drum_height=-out[at.OUT_DEPTH],
+            soil_displacement=-out[at.OUT_SURFACE],
+            plastic_depth=out[at.OUT_PLASTIC],
+            height_datum=out[at.OUT_DATUM],
+            contact_state=out[at.OUT_PHASE].astype(np.uint8),
+            shear_modulus_pa=soil.shear_modulus_pa,
+            plastic_parameter_m=soil.plastic_parameter_m,
+        )
+        self._next_sample += samples
+        return block
+
+    def _begin_revolution(self) -> None:
+        if self._revolution is not None:
+            self._revolution_start_s += self._samples * self._revolution.sample_period_s
+        if self._pending:
+            self._apply_pending()
+        self._revolution = self._drive.next_revolution()
+        self._ground.begin(self._revolution, self.configuration.soil)
+
+    def _apply_pending(self) -> None:
+        before = self.configuration.flat()
+        self.configuration = self.configuration.changed(self._pending)
+        for name, value in self._pending.items():
+            if name in _COMMAND_PARAMETERS:
+                self._command_sample = self._next_sample
+            if before[name] != value:
+                self._applied.append(Applied(self._next_sample, name, value))
+        self._pending = {}
+        exciter = self.configuration.exciter
+        self._drive.target_frequency_hz = exciter.frequency_hz if exciter.vibrate else 0.0
+        self._drive.target_amplitude_m = exciter.amplitude_m
+        self._drive.frequency_rate_hz_per_s = exciter.frequency_rate_hz_per_s
+        self._drive.amplitude_rate_m_per_s = exciter.amplitude_rate_m_per_s
+
+
+def warm_up(configuration: Configuration) -> None:
+    """Compile the kernels that a configuration needs, so that the first block of a run is not late.
+
+    One revolution each with and without phase changes.
+    """
+    exciter = replace(configuration.exciter, vibrate=True, frequency_hz=28.0, amplitude_m=2e-3)
+    session = Session(replace(configuration, exciter=exciter))
+    for _ in range(2):
+        session.advance(session.samples_per_revolution)
