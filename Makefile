@@ -33,6 +33,7 @@ test: check
 	 RMW_IMPLEMENTATION=rmw_fastrtps_cpp exec $(VENV)/python -m pytest $(TESTS)
 
 check: setup
+	@echo "check: ruff, mypy --strict"
 	@$(VENV)/ruff check --quiet .
 	@$(VENV)/ruff format --check --quiet .
 	@$(VENV)/mypy --no-error-summary
