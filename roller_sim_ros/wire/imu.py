@@ -8,7 +8,7 @@ from functools import cache
 import numpy as np
 
 from roller_sim_ros.sensors import Kind, Reading, specific_force
-from roller_sim_ros.session.block import Block
+from roller_sim_ros.session import Block
 from roller_sim_ros.wire import topics
 from roller_sim_ros.wire.messages import FRAME, Message, sample_stamp
 from roller_sim_ros.wire.types import encode, message_class

@@ -17,7 +17,7 @@ import numpy as np
 from roller_sim_ros.meters import MeterValue, TruthValue
 from roller_sim_ros.parameters import Configuration, Value
 from roller_sim_ros.sensors import Reading
-from roller_sim_ros.session.block import Block
+from roller_sim_ros.session import Applied, Block, ExciterCommand, ExciterStatus, Refusal
 from roller_sim_ros.wire import topics
 from roller_sim_ros.wire.types import encode, message_class
 
@@ -44,17 +44,6 @@ class Message(NamedTuple):
     type_name: str
     data: bytes
     stamp_ns: int
-
-
-class Refusal(IntEnum):
-    """Why a command was refused; the values of ``ExciterState.refusal_code``."""
-
-    NONE = 0
-    NOT_FINITE = 1
-    NEGATIVE = 2
-    OUT_OF_RANGE = 3
-    NOT_ACTIVE = 4
-    TIMEOUT = 5
 
 
 class Level(IntEnum):
@@ -183,14 +172,7 @@ def cmv(value: MeterValue, stamp_ns: int) -> Message:
 
 
 def exciter_state(
-    *,
-    vibrating: bool,
-    commanded_frequency_hz: float,
-    commanded_amplitude_m: float,
-    frequency_hz: float,
-    amplitude_m: float,
-    force_amplitude_n: float,
-    applied_sample: int,
+    status: ExciterStatus,
     stamp_ns: int,
     refusal: Refusal = Refusal.NONE,
     refusal_reason: str = "",
@@ -200,42 +182,40 @@ def exciter_state(
         topics.EXCITER_STATE,
         stamp_ns,
         _header(stamp_ns),
-        vibrating,
-        commanded_frequency_hz,
-        commanded_amplitude_m,
-        frequency_hz,
-        amplitude_m,
-        force_amplitude_n,
-        applied_sample,
+        status.vibrating,
+        status.commanded_frequency_hz,
+        status.commanded_amplitude_m,
+        status.frequency_hz,
+        status.amplitude_m,
+        status.force_amplitude_n,
+        status.applied_sample,
         int(refusal),
         refusal_reason,
     )
 
 
-def exciter_command(
-    *, vibrate: bool, frequency_hz: float, amplitude_m: float, stamp_ns: int
-) -> Message:
+def exciter_command(command: ExciterCommand, stamp_ns: int) -> Message:
     """Return ``exciter/command``."""
     return _message(
         topics.EXCITER_COMMAND,
         stamp_ns,
         _header(stamp_ns, frame=""),
-        vibrate,
-        frequency_hz,
-        amplitude_m,
+        command.vibrate,
+        command.frequency_hz,
+        command.amplitude_m,
     )
 
 
-def applied_change(sample: int, name: str, value: Value, stamp_ns: int) -> Message:
-    """Return ``applied``: a command or change that took effect at a sample."""
+def applied_change(change: Applied, stamp_ns: int) -> Message:
+    """Return ``applied``: a command or change that took effect; the stamp is that of its sample."""
     number, text = math.nan, ""
-    if isinstance(value, bool):
-        text = "true" if value else "false"
-    elif isinstance(value, str):
-        text = value
+    if isinstance(change.value, bool | str):
+        text = _text(change.value)
     else:
-        number = float(value)
-    return _message(topics.APPLIED, stamp_ns, _header(stamp_ns), sample, name, number, text)
+        number = float(change.value)
+    return _message(
+        topics.APPLIED, stamp_ns, _header(stamp_ns), change.sample, change.name, number, text
+    )
 
 
 def diagnostic_array(entries: Iterable[Diagnostic], stamp_ns: int) -> Message:

@@ -8,7 +8,7 @@ import pytest
 from roller_sim_ros.meters import MeterValue, Mode, Status, TruthValue
 from roller_sim_ros.parameters import Configuration
 from roller_sim_ros.sensors import IdealAccelerometer, Kind
-from roller_sim_ros.session.block import Block
+from roller_sim_ros.session import Applied, Block, ExciterCommand, ExciterStatus, Refusal
 from roller_sim_ros.wire import messages, topics
 from roller_sim_ros.wire.imu import imu
 from roller_sim_ros.wire.types import constants, decode, encode
@@ -120,7 +120,7 @@ def test_meter_and_cmv() -> None:
 
 def test_the_enumerations_are_those_of_the_messages() -> None:
     exciter = constants("roller_sim_ros/msg/ExciterState")
-    assert exciter == {item.name: item.value for item in messages.Refusal}
+    assert exciter == {item.name: item.value for item in Refusal}
     levels = constants("diagnostic_msgs/msg/DiagnosticStatus")
     assert levels == {item.name: item.value for item in messages.Level}
     kinds = constants("roller_sim_ros/msg/DrumAcceleration")
@@ -134,30 +134,24 @@ def test_the_enumerations_are_those_of_the_messages() -> None:
 
 
 def test_exciter_state_and_command() -> None:
-    got = read(
-        messages.exciter_state(
-            vibrating=True,
-            commanded_frequency_hz=30.0,
-            commanded_amplitude_m=1e-3,
-            frequency_hz=28.0,
-            amplitude_m=0.8e-3,
-            force_amplitude_n=1.5e5,
-            applied_sample=256,
-            stamp_ns=START_NS,
-            refusal=messages.Refusal.OUT_OF_RANGE,
-            refusal_reason="frequency = 99: must be at most 80 Hz",
-        )
+    status = ExciterStatus(
+        vibrating=True,
+        commanded_frequency_hz=30.0,
+        commanded_amplitude_m=1e-3,
+        frequency_hz=28.0,
+        amplitude_m=0.8e-3,
+        force_amplitude_n=1.5e5,
+        applied_sample=256,
     )
+    reason = "frequency 99 Hz: must be at most 80 Hz"
+    got = read(messages.exciter_state(status, START_NS, Refusal.OUT_OF_RANGE, reason))
     assert got.vibrating
     assert (got.commanded_frequency, got.commanded_amplitude) == (30.0, 1e-3)
     assert (got.frequency, got.amplitude, got.force_amplitude) == (28.0, 0.8e-3, 1.5e5)
-    assert (got.applied_sample, got.refusal_code) == (256, 3)
-    assert got.refusal_reason == "frequency = 99: must be at most 80 Hz"
-    command = read(
-        messages.exciter_command(
-            vibrate=False, frequency_hz=28.0, amplitude_m=1.6e-3, stamp_ns=START_NS
-        )
-    )
+    assert (got.applied_sample, got.refusal_code, got.refusal_reason) == (256, 3, reason)
+    accepted = read(messages.exciter_state(status, START_NS))
+    assert (accepted.refusal_code, accepted.refusal_reason) == (0, "")
+    command = read(messages.exciter_command(ExciterCommand(False, 28.0, 1.6e-3), START_NS))
     assert (command.vibrate, command.frequency, command.amplitude) == (False, 28.0, 1.6e-3)
 
 
@@ -166,7 +160,7 @@ def test_exciter_state_and_command() -> None:
     [(80e6, 80e6, ""), (7, 7.0, ""), (True, math.nan, "true"), ("exact", math.nan, "exact")],
 )
 def test_applied_change_takes_any_value(value, number: float, text: str) -> None:
-    got = read(messages.applied_change(384, "soil.shear_modulus_pa", value, START_NS))
+    got = read(messages.applied_change(Applied(384, "soil.shear_modulus_pa", value), START_NS))
     assert (got.sample, got.name, got.text) == (384, "soil.shear_modulus_pa", text)
     np.testing.assert_equal(got.value, number)
 
