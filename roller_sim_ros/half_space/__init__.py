@@ -7,7 +7,8 @@ Where things are:
 - ``rectangle``: how much of the strip's load lies at each distance from its centre
 - ``transient``: the two together, in closed form: step response and ramp
 - ``step_response``: the transient as a table for the kernels; FIR taps (half space ``exact``)
-- ``point_load_harmonic``, ``compliance``: exact compliance H(i omega), by quadrature
+- ``compliance``: exact compliance H(i omega), the transform of the transient
+- ``point_load_harmonic``: what a harmonic point load does
 - ``two_pole``: the paper's second-order half space
 - ``checks``: argument checks and `HalfSpaceError`
 """

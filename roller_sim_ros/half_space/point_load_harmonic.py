@@ -2,27 +2,20 @@
 
 For a force exp(+i omega t) the surface at the distance r settles by (1 - nu)/(2 pi G r) S^(y) with
 y = omega r/v_s and S^(y) = i y int_0^inf S(x) exp(-i y x) dx; S^(0) = 1. A load spread over an area is a
-sum of point loads: see `compliance` for the rectangle and `circular` for the disc.
+sum of point loads: see `circular` for the disc.
 """
 
 from __future__ import annotations
 
 import cmath
-import functools
 import math
 
 import numpy as np
 
 from roller_sim_ros.half_space.point_load import ComplexArray, FloatArray, PointLoad
+from roller_sim_ros.half_space.quadrature import gauss_legendre
 
 _CHUNK = 200_000  # exponentials at a time
-
-
-@functools.lru_cache(maxsize=64)
-def gauss_legendre(count: int) -> tuple[FloatArray, FloatArray]:
-    """Return nodes and weights of the Gauss rule on [0, 1]."""
-    nodes, weights = np.polynomial.legendre.leggauss(count)
-    return 0.5 * (nodes + 1.0), 0.5 * weights
 
 
 def _transient_rule(load: PointLoad, count: int) -> tuple[FloatArray, ComplexArray]:

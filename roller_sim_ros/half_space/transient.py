@@ -38,71 +38,102 @@ _LEAST_LOGARITHM = 1e-300
 
 
 @dataclass(frozen=True)
-class _Kernel:
-    """One term 1/w of S with w^2 = beta + lambda u; beta = -tau^2 (Rayleigh) or tau^2 (body)."""
+class _Term:
+    """One term 1/w of S at some upper limit u: w^2 = beta + lambda u and what integrates with it.
 
-    rayleigh: bool
-    slope: complex  # lambda
+    Attributes
+    ----------
+    slope : float or complex
+        lambda.
+    beta : ndarray
+        -tau^2 for the Rayleigh wave's term, tau^2 for the body waves'.
+    w : ndarray
+        At u.
+    phi : ndarray
+        With d phi/du = -tau/(2 u w).
+    edge_w : ndarray
+        w at max(u, c^2), the part of the range in which t is not zero.
+    big_t, big_e : ndarray
+        T and E there, up to constants.
+    """
 
-    def integrals(
-        self, side: Side, u: FloatArray, tau: FloatArray
-    ) -> tuple[NumberArray, NumberArray]:
-        """Antiderivatives in u of m/(2w) and of m phi/2, where d phi/du = -tau/(2 u w).
+    slope: complex
+    beta: NumberArray
+    w: NumberArray
+    phi: NumberArray
+    edge_w: NumberArray
+    big_t: NumberArray
+    big_e: NumberArray
 
-        The first belongs to the step, the second to the ramp. Constants of integration do not
-        depend on u.
-        """
-        c, b, sigma, mu = side.distance, side.half_width, side.sense, side.edge
-        lam = self.slope.real if self.slope.imag == 0.0 else self.slope
-        beta = -tau * tau if self.rayleigh else tau * tau
-        t = side.tangent(u)
-        psi = side.angle(t)
-        edge_u = np.maximum(u, c * c)
-        if self.rayleigh:
-            root_lam = math.sqrt(self.slope.real)
-            w = np.sqrt(np.maximum(beta + lam * u, 0.0))
-            edge_w = np.sqrt(np.maximum(beta + lam * edge_u, 0.0))
-            phi = np.arctan2(tau, w)
-            big_t = np.log(np.maximum(root_lam * t + edge_w, _LEAST_LOGARITHM)) / root_lam
-            big_e = np.log(np.maximum(c * edge_w + tau * t, _LEAST_LOGARITHM))
-            big_e = (big_e - 0.5 * np.log(edge_u)) / (c * tau)
-        else:
-            w_squared, edge_w_squared = beta + lam * u, beta + lam * edge_u
-            if not np.iscomplexobj(edge_w_squared):
-                edge_w_squared = np.maximum(edge_w_squared, 0.0)  # t = 0 there: no contribution
-            w, edge_w = np.sqrt(w_squared), np.sqrt(edge_w_squared)
-            phi = np.log((tau + w) / np.sqrt(u))
-            if np.iscomplexobj(w):
-                root = cmath.sqrt(self.slope)
-                big_t = np.log(root * t + edge_w) / root
-                big_e = np.arctan(tau * t / (c * edge_w)) / (c * tau)
-            else:
-                kappa = math.sqrt(-self.slope.real)
-                big_t = np.arctan2(kappa * t, edge_w) / kappa
-                big_e = np.arctan2(tau * t, c * edge_w) / (c * tau)
 
-        d_t = (beta + lam * c * c) * big_t
-        i1 = 2.0 * (lam * big_t + beta * big_e)  # int w/(u t) du
-        i2 = t * edge_w + d_t  # int w/t du
-        i3 = (t * edge_w - d_t) / lam  # int t/w du
-        i4 = 2.0 * (big_t - c * c * big_e)  # int t/(u w) du
-        curvature = 1.0 / (6.0 * b * b)
-        ratio = beta / lam
+def _rayleigh_term(
+    side: Side, u: FloatArray, tau: FloatArray, gamma: float, *, at_front: bool = False
+) -> _Term:
+    """Term 1/sqrt(gamma^2 u - tau^2), zero at its own front u = (tau/gamma)^2."""
+    c, slope = side.distance, gamma * gamma
+    edge_u, t = np.maximum(u, c * c), side.tangent(u)
+    # At the front the difference would leave 1e-8 of rounding where there is exactly nothing.
+    w = np.zeros_like(u) if at_front else np.sqrt(np.maximum(slope * u - tau * tau, 0.0))
+    before_edge = np.sqrt(np.maximum(slope * c * c - tau * tau, 0.0))
+    edge_w = np.where(u > c * c, w, before_edge)
+    big_t = np.log(np.maximum(gamma * t + edge_w, _LEAST_LOGARITHM)) / gamma
+    big_e = np.log(np.maximum(c * edge_w + tau * t, _LEAST_LOGARITHM)) - 0.5 * np.log(edge_u)
+    return _Term(slope, -tau * tau, w, np.arctan2(tau, w), edge_w, big_t, big_e / (c * tau))
 
-        def of_parabola(p: float) -> NumberArray:
-            # int psi (1 - 3 p u)/(2 w) du, by parts on the polynomial
-            q = 1.0 + 2.0 * p * ratio
-            out: NumberArray = (psi * w * (q - p * u) - 0.5 * sigma * c * (q * i1 - p * i2)) / lam
-            return out
 
-        step = of_parabola(curvature) + 0.5 * mu * i3
-        n0 = 2.0 - c * c / (3.0 * b * b)
-        ramp = psi * u * (1.0 - 1.5 * curvature * u) * phi
-        ramp = ramp + tau * of_parabola(0.5 * curvature)
-        ramp -= 0.5 * sigma * c * t * (n0 - curvature * u) * phi
-        ramp -= 0.25 * sigma * c * tau * (n0 * i4 - curvature * i3)
-        ramp += mu * (2.0 / 3.0 * t**3 * phi + tau / 3.0 * (i3 - c * c * i4))
-        return side.scale * step, 0.5 * side.scale * ramp
+def _body_term(side: Side, u: FloatArray, tau: FloatArray, kappa_squared: complex) -> _Term:
+    """Term 1/sqrt(tau^2 - kappa^2 u), real or complex."""
+    c, t = side.distance, side.tangent(u)
+    slope = -kappa_squared if kappa_squared.imag else -kappa_squared.real
+    w_squared = tau * tau + slope * u
+    w = np.sqrt(w_squared)
+    phi = np.log((tau + w) / np.sqrt(u))
+    if isinstance(slope, complex):
+        # w and the root of lambda lie in one quadrant: no logarithm crosses its cut.
+        edge_w = np.where(u > c * c, w, np.sqrt(tau * tau + slope * c * c))
+        root = cmath.sqrt(slope)
+        big_t = np.log(root * t + edge_w) / root
+        big_e = np.arctan(tau * t / (c * edge_w)) / (c * tau)
+    else:
+        edge_w = np.where(u > c * c, w, 0.0)  # t = 0 there: no contribution
+        kappa = math.sqrt(-slope)
+        big_t = np.arctan2(kappa * t, edge_w) / kappa
+        big_e = np.arctan2(tau * t, c * edge_w) / (c * tau)
+    return _Term(slope, tau * tau, w, phi, edge_w, big_t, big_e)
+
+
+def _antiderivatives(
+    side: Side, u: FloatArray, tau: FloatArray, term: _Term
+) -> tuple[NumberArray, NumberArray]:
+    """Antiderivatives in u of m/(2w), for the step, and of m phi/2, for the ramp.
+
+    Constants of integration do not depend on u.
+    """
+    c, b, sigma, mu = side.distance, side.half_width, side.sense, side.edge
+    lam, beta, w, phi = term.slope, term.beta, term.w, term.phi
+    t = side.tangent(u)
+    psi = side.angle(t)
+    d_t = (beta + lam * c * c) * term.big_t
+    i1 = 2.0 * (lam * term.big_t + beta * term.big_e)  # int w/(u t) du
+    i2 = t * term.edge_w + d_t  # int w/t du
+    i3 = (t * term.edge_w - d_t) / lam  # int t/w du
+    i4 = 2.0 * (term.big_t - c * c * term.big_e)  # int t/(u w) du
+    curvature = 1.0 / (6.0 * b * b)
+
+    def of_parabola(p: float) -> NumberArray:
+        # int psi (1 - 3 p u)/(2 w) du, by parts on the polynomial
+        q = 1.0 + 2.0 * p * beta / lam
+        out: NumberArray = (psi * w * (q - p * u) - 0.5 * sigma * c * (q * i1 - p * i2)) / lam
+        return out
+
+    step = of_parabola(curvature) + 0.5 * mu * i3
+    n0 = 2.0 - c * c / (3.0 * b * b)
+    ramp = psi * u * (1.0 - 1.5 * curvature * u) * phi
+    ramp = ramp + tau * of_parabola(0.5 * curvature)
+    ramp -= 0.5 * sigma * c * t * (n0 - curvature * u) * phi
+    ramp -= 0.25 * sigma * c * tau * (n0 * i4 - curvature * i3)
+    ramp += mu * (2.0 / 3.0 * t**3 * phi + tau / 3.0 * (i3 - c * c * i4))
+    return side.scale * step, 0.5 * side.scale * ramp
 
 
 @dataclass(frozen=True)
@@ -140,6 +171,17 @@ def memory(aspect_ratio: float, poisson_ratio: float) -> float:
     return point_load(poisson_ratio).slowness_rayleigh * diagonal
 
 
+def wave_fronts(aspect_ratio: float, poisson_ratio: float) -> list[float]:
+    """Times, in units of sqrt(BL)/v_s, at which the step response is not smooth, in rising order.
+
+    P, S and Rayleigh waves arrive from the two pairs of sides and from the corners.
+    """
+    load = point_load(poisson_ratio)
+    distances = (aspect_ratio**-0.5, aspect_ratio**0.5, math.sqrt(aspect_ratio + 1 / aspect_ratio))
+    slownesses = (load.slowness_p, 1.0, load.slowness_rayleigh)
+    return sorted({slowness * distance for slowness in slownesses for distance in distances})
+
+
 def step_and_ramp(
     tau: FloatArray, aspect_ratio: float, poisson_ratio: float
 ) -> tuple[FloatArray, FloatArray]:
@@ -171,25 +213,23 @@ def step_and_ramp(
     u_r = np.minimum((time / gamma) ** 2, farthest)
     u_s = np.minimum(time**2, farthest)
     u_p = np.minimum((time / a) ** 2, farthest)
-    rayleigh = _Kernel(rayleigh=True, slope=complex(gamma * gamma))
     step, ramp = np.zeros_like(time), np.zeros_like(time)
     for side in sides(aspect_ratio):
         _, area_r = side.weight_integrals(u_r)
         along_s, area_s = side.weight_integrals(u_s)
         along_p, area_p = side.weight_integrals(u_p)
-        (step_r, ramp_r), (step_s, ramp_s), (step_p, ramp_p) = (
-            rayleigh.integrals(side, u, time) for u in (u_r, u_s, u_p)
-        )
-        step += 0.5 * (along_s + along_p) - strength * (0.5 * (step_p + step_s) - step_r).real
-        ramp += (
-            time * 0.5 * (along_s + along_p) - strength * (0.5 * (ramp_p + ramp_s) - ramp_r).real
-        )
+        step += 0.5 * (along_s + along_p)
+        ramp += time * 0.5 * (along_s + along_p) + fronts.after_p * (area_p - area_s)
         ramp += fronts.after_rayleigh * area_r + fronts.after_s * (area_s - area_r)
-        ramp += fronts.after_p * (area_p - area_s)
+        for u, share in ((u_r, -1.0), (u_s, 0.5), (u_p, 0.5)):
+            term = _rayleigh_term(side, u, time, gamma, at_front=u is u_r)
+            part_step, part_ramp = _antiderivatives(side, u, time, term)
+            step -= share * strength * part_step
+            ramp -= share * strength * part_ramp
         for root in load.body_roots:
-            kernel = _Kernel(rayleigh=False, slope=-root.kappa_squared)
-            near_step, near_ramp = kernel.integrals(side, u_s, time)
-            far_step, far_ramp = kernel.integrals(side, u_p, time)
-            step -= 0.5 * (root.amplitude * (far_step - near_step)).real
-            ramp -= 0.5 * (root.amplitude * (far_ramp - near_ramp)).real
+            for u, share in ((u_s, -0.5), (u_p, 0.5)):
+                term = _body_term(side, u, time, root.kappa_squared)
+                part_step, part_ramp = _antiderivatives(side, u, time, term)
+                step -= share * (root.amplitude * part_step).real
+                ramp -= share * (root.amplitude * part_ramp).real
     return np.where(positive, step / whole, 0.0), np.where(positive, ramp / whole, 0.0)
