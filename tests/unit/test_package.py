@@ -52,6 +52,7 @@ LAYERS = (
     "meters",
     "session",
     "wire",
+    "emulation",
     "traces",
     "analysis",
     "node",

@@ -1,0 +1,228 @@
+"""The one place where a block of samples becomes messages: what is published is what is recorded."""
+
+from __future__ import annotations
+
+import threading
+from collections.abc import Mapping
+
+from roller_sim_ros.meters import CompactionMeter, MeterValue, TruthMeter, TruthValue
+from roller_sim_ros.parameters import SAMPLES_PER_REVOLUTION, Configuration, ParameterError, Value
+from roller_sim_ros.sensors import IdealAccelerometer, Reading, Sensor
+from roller_sim_ros.session import Block, CommandRefused, ExciterStatus, Refusal, Session
+from roller_sim_ros.wire import messages
+from roller_sim_ros.wire.imu import imu
+from roller_sim_ros.wire.messages import Message
+
+STATE_HZ = 10
+"""How often ``exciter/state`` comes at least, per simulated second."""
+
+
+class Emulator:
+    """The roller as its network sees it: session → sensor → meters → messages. Knows no clock and no ROS.
+
+    One thread may advance it while others command it.
+
+    Parameters
+    ----------
+    configuration : Configuration
+        What is emulated; 128 samples per revolution.
+    start_ns : int
+        Stamp of the first sample, ns since the epoch.
+    run_up : bool
+        Start the exciter from standstill; otherwise at once at full frequency and amplitude.
+
+    Attributes
+    ----------
+    session : Session
+        The roller; to be advanced, commanded and changed through the emulator only.
+    start_ns : int
+        As given.
+    block : Block or None
+        The last block.
+    meter_value : MeterValue or None
+        The last meter value; None before the first revolution is complete.
+
+    Raises
+    ------
+    ParameterError
+        If the configuration has another number of samples per revolution.
+
+    Examples
+    --------
+    >>> emulator = Emulator(Configuration(), start_ns=0)
+    >>> [message.topic for message in emulator.advance(16)]
+    ['drum/acceleration', 'truth', 'exciter/state', 'machine', 'soil']
+    >>> [message.topic for message in emulator.advance(16)]
+    ['drum/acceleration', 'truth']
+    """
+
+    def __init__(
+        self, configuration: Configuration, *, start_ns: int, run_up: bool = False
+    ) -> None:
+        samples = configuration.sampling.samples_per_revolution
+        if samples != SAMPLES_PER_REVOLUTION:
+            raise ParameterError(
+                "sampling.samples_per_revolution",
+                samples,
+                f"messages and traces need {SAMPLES_PER_REVOLUTION} samples per revolution",
+            )
+        self.session = Session(configuration, run_up=run_up)
+        self.start_ns = start_ns
+        self.block: Block | None = None
+        self.meter_value: MeterValue | None = None
+        meter = configuration.meter
+        self._sensor: Sensor = IdealAccelerometer()
+        self._reading: Reading | None = None
+        self._meter = CompactionMeter(meter.window_revolutions, meter.noise_floor_m_s2)
+        self._truth = TruthMeter(meter.window_revolutions, configuration.machine.static_load_n)
+        self._status: ExciterStatus | None = None
+        self._refusal = (Refusal.NONE, "")
+        self._refusal_told = True
+        self._tick = -1
+        self._configuration_told: Configuration | None = None
+        self._facts: dict[str, bytes] = {}
+        self._lock = threading.Lock()
+
+    @property
+    def truth_value(self) -> TruthValue:
+        """The last true values; unknown (NaN) before the first window is full."""
+        return self._truth.value
+
+    @property
+    def refusal(self) -> tuple[Refusal, str]:
+        """Why the last command was refused, as code and reason; NONE when it was not."""
+        return self._refusal
+
+    def advance(self, samples: int) -> list[Message]:
+        """Step over the next samples and return what is to be published, in that order.
+
+        ``drum/acceleration`` and ``truth``; where a revolution ends ``meter`` and ``cmv``; where one begins
+        ``applied`` for all that took effect; ``exciter/state`` on change and 10 times a simulated second;
+        ``machine`` and ``soil`` at the start and on change.
+
+        Parameters
+        ----------
+        samples : int
+            At least 1, at most what is left of the current 128 samples.
+
+        Raises
+        ------
+        RollerSimError
+            If `samples` would reach over a multiple of 128 samples.
+        """
+        with self._lock:
+            block = self.session.advance(samples)
+            reading = self._sensor.read(block)
+            self.block, self._reading = block, reading
+            truth = self._truth.feed(block)
+            out = [
+                messages.drum_acceleration(reading, block, self.start_ns),
+                messages.drum_soil_state(block, truth, self.start_ns),
+            ]
+            self._add_meter(out, block, reading)
+            begins = block.first_sample % SAMPLES_PER_REVOLUTION == 0
+            stamp_ns = messages.sample_stamp(block, 0, self.start_ns)
+            if begins:
+                out += [messages.applied_change(it, stamp_ns) for it in self.session.applied()]
+            self._add_state(out, block, stamp_ns, begins=begins)
+            if begins:
+                self._add_facts(out, stamp_ns)
+            return out
+
+    def imu_messages(self) -> list[Message]:
+        """Return ``drum/imu`` of the last block, decimated as the pacing says."""
+        if self.block is None or self._reading is None:
+            return []
+        decimation = self.session.configuration.pacing.imu_decimation
+        return imu(self._reading, self.block, self.start_ns, decimation)
+
+    def command(self, *, vibrate: bool, frequency_hz: float, amplitude_m: float) -> None:
+        """Command the exciter; takes effect at the next multiple of 128 samples.
+
+        Raises
+        ------
+        CommandRefused
+            If a value is refused; the roller carries on as before and ``exciter/state`` says why.
+        """
+        try:
+            with self._lock:
+                self.session.command_exciter(
+                    vibrate=vibrate, frequency_hz=frequency_hz, amplitude_m=amplitude_m
+                )
+                self._refusal_told &= self._refusal[0] is Refusal.NONE
+                self._refusal = (Refusal.NONE, "")
+        except CommandRefused as error:
+            self.refuse(error.code, str(error))
+            raise
+
+    def change(self, values: Mapping[str, Value]) -> None:
+        """Change live parameters; takes effect at the next multiple of 128 samples.
+
+        Parameters
+        ----------
+        values : mapping
+            {dotted name: SI value}. All are taken or none.
+
+        Raises
+        ------
+        ParameterError
+            If a name is unknown, a parameter is not live, or a value is refused.
+        """
+        with self._lock:
+            self.session.change(values)
+
+    def refuse(self, code: Refusal, reason: str) -> None:
+        """Let ``exciter/state`` say, from the next block to the next accepted command, what was refused.
+
+        Parameters
+        ----------
+        code : Refusal
+            Why, as a code.
+        reason : str
+            The same in words: field, value and bound.
+        """
+        with self._lock:
+            self._refusal = (code, reason)
+            self._refusal_told = False
+
+    def _add_meter(self, out: list[Message], block: Block, reading: Reading) -> None:
+        for value in self._meter.feed(
+            block.first_sample,
+            reading.vertical,
+            block.sample_period_s,
+            block.excitation_hz,
+            block.eccentric_phase_rad,
+            block.phase_increment_rad,
+        ):
+            self.meter_value = value
+            index = value.last_sample - block.first_sample
+            stamp_ns = messages.sample_stamp(block, index, self.start_ns)
+            out.append(messages.compaction_meter(value, stamp_ns))
+            out.append(messages.cmv(value, stamp_ns))
+
+    def _add_state(self, out: list[Message], block: Block, stamp_ns: int, *, begins: bool) -> None:
+        """Add ``exciter/state`` if something changed or a tenth of a second began since the last block."""
+        tick = int(STATE_HZ * block.time_s)
+        due = tick != self._tick or not self._refusal_told
+        # Between two beginnings of a revolution nothing changes.
+        if begins:
+            status = self.session.exciter_status()
+            due |= status != self._status
+            self._status = status
+        if due and self._status is not None:
+            out.append(messages.exciter_state(self._status, stamp_ns, *self._refusal))
+            self._refusal_told = True
+            self._tick = tick
+
+    def _add_facts(self, out: list[Message], stamp_ns: int) -> None:
+        configuration = self.session.configuration
+        if configuration == self._configuration_told:
+            return
+        self._configuration_told = configuration
+        for message in (
+            messages.machine_facts(configuration, stamp_ns),
+            messages.soil_facts(configuration, stamp_ns),
+        ):
+            if self._facts.get(message.topic) != message.data:
+                self._facts[message.topic] = message.data
+                out.append(message)
