@@ -58,8 +58,8 @@ def writing_error(path: Path, error: OSError) -> TraceError:
         return TraceError(
             path,
             Problem.FULL,
-            f"the recording stopped: {why}",
-            "free space or record elsewhere; what was recorded until then is kept",
+            f"no more can be written: {why}",
+            "free space, or write to another place",
         )
     if number == errno.ENOENT:
         return TraceError(
