@@ -1,0 +1,113 @@
+"""Command-line flags made from the declarations of the parameters, in engineering units."""
+
+from __future__ import annotations
+
+import argparse
+from collections.abc import Collection
+
+from roller_sim_ros.parameters import PARAMETERS, ParameterError, Quantity, Value
+from roller_sim_ros.parameters.quantity import check
+
+
+def add_parameter_flags(parser: argparse.ArgumentParser, exclude: Collection[str] = ()) -> None:
+    """Add the flag of every parameter that has one.
+
+    A flag that is not given is None, so that what another source says of the parameter holds.
+
+    Parameters
+    ----------
+    parser : argparse.ArgumentParser
+        Where they go, in one group for each group of parameters.
+    exclude : collection of str
+        Dotted names of parameters whose flags the command does not want or adds itself.
+    """
+    groups: dict[str, argparse._ArgumentGroup] = {}
+    for name, (quantity, default) in PARAMETERS.items():
+        if not quantity.flag or name in exclude:
+            continue
+        title = name.partition(".")[0]
+        if title not in groups:
+            groups[title] = parser.add_argument_group(title.replace("_", " "))
+        groups[title].add_argument(
+            quantity.flag,
+            dest=_destination(name),
+            metavar=_metavar(quantity, default),
+            type=_text_or_number(default),
+            help=_help(quantity, default),
+        )
+
+
+def given_values(arguments: argparse.Namespace) -> dict[str, Value]:
+    """Return {dotted name: SI value} of the flags that were given.
+
+    Raises
+    ------
+    ParameterError
+        If a value breaks its declaration; the message speaks of the flag and its unit.
+    """
+    values: dict[str, Value] = {}
+    for name, (quantity, default) in PARAMETERS.items():
+        given = getattr(arguments, _destination(name), None)
+        if given is None:
+            continue
+        value = given if isinstance(default, str) else _si(given, quantity, default)
+        try:
+            values[name] = check(name, quantity, default, value)
+        except ParameterError:
+            bounds = _bounds(quantity, default)
+            raise ParameterError(quantity.flag, given, f"must be {bounds}") from None
+    return values
+
+
+def _destination(name: str) -> str:
+    return f"parameter {name}"
+
+
+def _si(given: float, quantity: Quantity, default: Value) -> float:
+    # Divided where that is exact: 1.6 mm shall be 0.0016 m, not the neighbour of it.
+    inverse = 1.0 / quantity.scale
+    value = given / inverse if inverse.is_integer() else given * quantity.scale
+    return int(value) if isinstance(default, int) and value.is_integer() else value
+
+
+def _text_or_number(default: Value) -> type[str] | type[float]:
+    return str if isinstance(default, str) else float
+
+
+def _metavar(quantity: Quantity, default: Value) -> str:
+    if quantity.choices:
+        return "|".join(quantity.choices)
+    if isinstance(default, str):
+        return "PATH" if quantity.flag == "--record" else "TEXT"
+    unit = quantity.flag_unit
+    return unit.upper() if unit.isalpha() and unit.isascii() else "X"
+
+
+def _engineering(value: float, quantity: Quantity) -> str:
+    unit = f" {quantity.flag_unit}" if quantity.flag_unit else ""
+    return f"{value / quantity.scale:g}{unit}"
+
+
+def _bounds(quantity: Quantity, default: Value) -> str:
+    if quantity.choices:
+        return f"one of {', '.join(quantity.choices)}"
+    whole = "a whole number, " if isinstance(default, int) else ""
+    low, high = quantity.minimum, quantity.maximum
+    if low is not None and high is not None:
+        unit = f" {quantity.flag_unit}" if quantity.flag_unit else ""
+        return f"{whole}{low / quantity.scale:g} … {high / quantity.scale:g}{unit}"
+    if low is not None:
+        return f"{whole}at least {_engineering(low, quantity)}"
+    if high is not None:
+        return f"{whole}at most {_engineering(high, quantity)}"
+    return f"{whole}finite"
+
+
+def _help(quantity: Quantity, default: Value) -> str:
+    text = quantity.doc
+    if not isinstance(default, str):
+        text += f"; {_bounds(quantity, default)}"
+        text += f" (default: {_engineering(float(default), quantity)})"
+    elif default:
+        text += f" (default: {default})"
+    return text.replace("%", "%%")
