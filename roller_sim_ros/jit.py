@@ -43,8 +43,8 @@ def cache_directory() -> str:
     name = f"roller-sim-{digest.hexdigest()[:16]}"
     if os.access(package, os.W_OK):
         return str(package / "__pycache__" / name)
-    caches = os.environ.get("XDG_CACHE_HOME") or os.path.join(os.path.expanduser("~"), ".cache")
-    return os.path.join(caches, "roller_sim_ros", name)
+    caches = os.environ.get("XDG_CACHE_HOME")
+    return str((Path(caches) if caches else Path.home() / ".cache") / "roller_sim_ros" / name)
 
 
 def _compiled(function: Function, **options: Any) -> Function:

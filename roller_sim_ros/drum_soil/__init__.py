@@ -1,7 +1,7 @@
 """Drum and soil: the phases of Figure 13, a kernel for each kind of half space.
 
 A new half space is one file with a `Ground` and one line in `GROUNDS` (and its name among the choices of the
-parameter ``half_space.model``). Those that answer a force with a velocity share `velocity_contact`.
+parameter ``half_space.model``). The phases themselves are in `contact`, one part of a step in `parts`.
 """
 
 from roller_sim_ros.drum_soil.exact_ground import ExactGround

@@ -7,10 +7,10 @@ from functools import lru_cache
 
 import numpy as np
 
-from roller_sim_ros.drum_soil import exact
+from roller_sim_ros.drum_soil import exact_kernel
 from roller_sim_ros.drum_soil import state as at
+from roller_sim_ros.drum_soil.finite_memory import BENDS_SHAPE
 from roller_sim_ros.drum_soil.ground import Array, Ground
-from roller_sim_ros.drum_soil.velocity_contact import BENDS_SHAPE
 from roller_sim_ros.exciter import Revolution
 from roller_sim_ros.half_space.transient import memory, step_and_ramp
 from roller_sim_ros.parameters import Soil
@@ -85,7 +85,8 @@ class ExactGround(Ground):
     def advance(self, first: int, samples: int) -> Array:
         """Step over samples first … first + samples − 1 of the revolution."""
         out = np.empty((at.OUT_ROWS, samples))
-        exact.advance(
+        middle, ramp_2, ramp, step, chord, chord_rate, bulge_rate = self._answers
+        exact_kernel.advance(
             samples,
             first,
             self.state,
@@ -93,7 +94,13 @@ class ExactGround(Ground):
             self._sine,
             self._cosine,
             self._angle,
-            *self._answers,
+            middle,
+            ramp_2,
+            ramp,
+            step,
+            chord,
+            chord_rate,
+            bulge_rate,
             self._free,
             self._free_rate,
             self._bends,

@@ -67,3 +67,13 @@ AIR = 2
 
 MAX_SPLITS = 24
 """Phase changes followed inside one step before the step is finished as it stands and counted."""
+
+# Kinds of half space that `contact` knows.
+FINITE_MEMORY = 0
+TWO_POLE = 1
+
+# Below these a change of phase is rounding noise of a roller at rest.
+STILL_VELOCITY = 1e-12
+"""m/s."""
+STILL_SLOPE = 1.0
+"""N/s: a force that changes by less than F_stat in hours."""

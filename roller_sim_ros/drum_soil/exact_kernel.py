@@ -1,31 +1,28 @@
 """The kernel for the exact half space: its finite memory is the motion its surface would go on with.
 
-History is kept as a physical quantity, the free motion and its rate at the coming samples if the force stayed as it is. A
-step adds what its force does later: in a whole step a chord and a bulge, in a split one each bend of the force. While
-the drum flies the force does not change and nothing is added.
+History is kept as a physical quantity, the free motion and its rate at the coming samples if the force stayed as it
+is. A step adds what its force does later: in a whole step a chord and a bulge, in a split one each bend of the force.
+While the drum flies the force does not change and nothing is added.
 """
 
 from __future__ import annotations
 
-import numpy as np
-from numpy.typing import NDArray
-
 from roller_sim_ros.drum_soil import state as at
-from roller_sim_ros.drum_soil.renewal import renewed
-from roller_sim_ros.drum_soil.velocity_contact import (
+from roller_sim_ros.drum_soil.contact import split_step
+from roller_sim_ros.drum_soil.finite_memory import (
     BEND_CURVATURE,
     BEND_SLOPE,
     BEND_TIME,
+    Array,
     free_motion,
-    solve_part,
-    split_step,
 )
+from roller_sim_ros.drum_soil.parts import solve_part
+from roller_sim_ros.drum_soil.renewal import renewed
+from roller_sim_ros.drum_soil.state import STILL_SLOPE, STILL_VELOCITY
 from roller_sim_ros.exciter.force import exciter_motion
 from roller_sim_ros.jit import inlined, njit
 
-Array = NDArray[np.float64]
-
-AIR, LOADING, UNLOADING = at.AIR, at.LOADING, at.UNLOADING
+AIR, LOADING, UNLOADING, FINITE_MEMORY = at.AIR, at.LOADING, at.UNLOADING, at.FINITE_MEMORY
 
 
 @inlined
@@ -124,7 +121,7 @@ def advance(
     answer_middle = (middle[0], middle[1], middle[2])
     answer_end = (ramp_2[1], ramp[1], step[1])
     bulge = h * h * h / 6.0
-    tuple_constants = (mass, static_load, plastic)
+    drum_constants = (mass, static_load, plastic)
     d = state[at.DEPTH]
     v = state[at.VELOCITY]
     force = state[at.FORCE]
@@ -150,9 +147,7 @@ def advance(
         out[at.OUT_DATUM, i] = datum
         out[at.OUT_PHASE, i] = phase
 
-        motion = free_motion(
-            h, e, w, free[i + 1], free_rate[i + 1], free[i + 2], free_rate[i + 2]
-        )
+        motion = free_motion(h, e, w, free[i + 1], free_rate[i + 1], free[i + 2], free_rate[i + 2])
         known_end = (motion[2], motion[3])
         known_middle = (
             0.5 * (e + known_end[0])
@@ -160,9 +155,10 @@ def advance(
             + 0.0625 * (motion[4] - 1.5 * motion[5]),
             1.5 * (known_end[0] - e) / h - 0.25 * (w + known_end[1]) + 0.0625 * motion[5] / h,
         )
-        sigma, kappa, d_1, v_1, force_1, e_1, w_1 = solve_part(
+        slope_start, slope_end, d_1, v_1, force_1, e_1, w_1 = solve_part(
             phase,
             h,
+            True,
             (d, v, force, q, datum),
             0.0,
             exciter_motion(0.5 * h, omega, sine[j], cosine[j], amplitude, rate),
@@ -171,36 +167,40 @@ def advance(
             known_end,
             answer_middle,
             answer_end,
-            tuple_constants,
+            drum_constants,
         )
         if phase == LOADING:
-            changes = sigma < 0.0 or v_1 < w_1
+            changes = slope_start + slope_end < -STILL_SLOPE or v_1 < w_1 - STILL_VELOCITY
         elif phase == UNLOADING:
-            changes = sigma > kappa * h or force_1 < 0.0
+            changes = slope_end > STILL_SLOPE or force_1 < 0.0
         else:
             changes = d_1 > e_1 + q + datum
         count = 0
         force_0 = force
-        if (changes or (v < 0.0 and v_1 >= 0.0)) and not (
-            phase == AIR and not changes and _renew_only(d_1, e_1, datum)
-        ):
-            d, v, force, e, w, q, datum, phase, count, unsettled = split_step(
-                (d, v, force, e, w, q, datum, phase),
+        # An apex clear of the surface needs no location: only the plastic depth is renewed.
+        at_apex = v < 0.0 and v_1 >= 0.0 and v_1 - v > STILL_VELOCITY
+        if changes or (at_apex and not (phase == AIR and d_1 < e_1 + datum)):
+            phase, new, count, unsettled = split_step(
+                phase,
+                (d, v, force, e, w, q, datum),
                 h,
+                drum_constants,
+                (omega, phase_angle[j], amplitude, rate),
+                FINITE_MEMORY,
                 motion,
                 (ramp[1], step[1]),
-                tuple_constants,
-                (omega, phase_angle[j], amplitude, rate),
+                (0.0, 0.0, 0.0),
                 bends,
             )
+            d, v, force, e, w, q, datum = new
             unsettled_steps += unsettled
         else:
             if phase == LOADING:
                 q += plastic * (force_1 - force)
             elif phase == UNLOADING:
                 q = d_1 - e_1 - datum
-            elif v < 0.0 and v_1 >= 0.0:
-                q, datum = renewed(d_1, e_1, q, datum, 0.0, AIR, plastic)
+            elif at_apex:
+                q, datum = renewed(d_1, e_1, datum, 0.0, AIR, plastic)
             d, v, force, e, w = d_1, v_1, force_1, e_1, w_1
 
         # The step's force joins the history: what is beyond the memory has settled under the force before it.
@@ -224,6 +224,7 @@ def advance(
                     bends[n, BEND_CURVATURE],
                 )
         elif phase != AIR:
+            kappa = (slope_start - slope_end) / (2.0 * h)
             bulge_value = bulge * kappa
             for k in range(memory):
                 free[base + k] += change * chord[k] + bulge_value * chord_rate[k]
@@ -242,9 +243,3 @@ def advance(
     state[at.DATUM] = datum
     state[at.PHASE] = phase
     state[at.UNSETTLED_STEPS] += unsettled_steps
-
-
-@inlined
-def _renew_only(d: float, e: float, datum: float) -> bool:
-    """Whether an apex in the air needs no location: the drum is clear of the surface, only q becomes zero."""
-    return d < e + datum
