@@ -139,11 +139,11 @@ class _Progress:
 
 
 def _parser() -> argparse.ArgumentParser:
-    paragraphs = (
+    what = (
         "Make a whole MCAP file of one that was cut off (SIGKILL, power, full disk) or damaged, and state "
-        "what was lost. The given file is never changed. Any MCAP file will do.",
-        LOSS.format(unwritten="at most its flush period, 0.5 s by default"),
+        "what was lost. The given file is never changed. Any MCAP file will do."
     )
+    loss = LOSS.format(unwritten="at most its flush period, 0.5 s by default")
     table = (
         "The table tells by topic: messages kept; log times of the first and the last, s from the trace's "
         "first; messages missing between those, by the recorder's own counter; and gaps in the samples of "
@@ -151,7 +151,7 @@ def _parser() -> argparse.ArgumentParser:
     )
     parser = argparse.ArgumentParser(
         prog="roller-sim recover",
-        description="\n\n".join(textwrap.fill(text, WIDTH) for text in paragraphs),
+        description="\n\n".join(textwrap.fill(text, WIDTH) for text in (what, loss)),
         epilog=(
             f"{textwrap.fill(table, WIDTH)}\n\n"
             "example:\n  roller-sim recover broken.mcap -o whole.mcap"

@@ -1,0 +1,145 @@
+"""A short recording with every topic of the package, made of its own messages."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from roller_sim_ros.meters import MeterValue, Mode, Status, TruthValue
+from roller_sim_ros.parameters import Configuration
+from roller_sim_ros.sensors import IdealAccelerometer
+from roller_sim_ros.session import Applied, Block, ExciterCommand, ExciterStatus
+from roller_sim_ros.traces.metadata import run_metadata
+from roller_sim_ros.traces.registration import register_all
+from roller_sim_ros.traces.writer import TraceWriter
+from roller_sim_ros.wire import messages
+from roller_sim_ros.wire.imu import imu
+from roller_sim_ros.wire.messages import Message
+
+START_NS = 1_700_000_000_000_000_000
+SAMPLES = 16
+PERIOD_S = 1 / 3584.0
+
+
+def make_block(index: int) -> Block:
+    rng = np.random.default_rng(index)
+    numbers = rng.normal(size=(6, SAMPLES))
+    first = index * SAMPLES
+    return Block(
+        first_sample=first,
+        time_s=first * PERIOD_S,
+        sample_period_s=PERIOD_S,
+        excitation_hz=28.0,
+        eccentric_phase_rad=(first % 128) * 2 * math.pi / 128,
+        phase_increment_rad=2 * math.pi / 128,
+        acceleration_vertical=numbers[0],
+        acceleration_horizontal=numbers[1],
+        soil_force=abs(numbers[2]),
+        drum_height=numbers[3],
+        soil_displacement=numbers[4],
+        plastic_depth=abs(numbers[5]),
+        height_datum=np.zeros(SAMPLES),
+        contact_state=rng.integers(0, 3, SAMPLES).astype(np.uint8),
+        shear_modulus_pa=35e6,
+        plastic_parameter_m=1e-3,
+    )
+
+
+def make_messages(blocks: int) -> list[Message]:
+    """All topics: facts at the start, blocks, a meter value now and then, one of each rare kind."""
+    configuration = Configuration()
+    status = ExciterStatus(True, 28.0, 1.6e-3, 28.0, 1.6e-3, 1.5e5, 0)
+    found = [
+        messages.machine_facts(configuration, START_NS),
+        messages.soil_facts(configuration, START_NS),
+        messages.parameter_event("/roller", {"soil.shear_modulus_pa": 35e6}, START_NS),
+        messages.exciter_command(ExciterCommand(True, 28.0, 1.6e-3), START_NS),
+        messages.exciter_state(status, START_NS),
+        messages.applied_change(Applied(0, "exciter.frequency_hz", 28.0), START_NS),
+        messages.diagnostic_array([messages.Diagnostic("pacing", values={"x": 1.5})], START_NS),
+    ]
+    sensor = IdealAccelerometer()
+    for index in range(blocks):
+        block = make_block(index)
+        reading = sensor.read(block)
+        found.append(messages.drum_acceleration(reading, block, START_NS))
+        found.append(messages.drum_soil_state(block, TruthValue(), START_NS))
+        if index == 0:
+            found += imu(reading, block, START_NS)
+        if index % 8 == 7:
+            last = (index + 1) * SAMPLES - 1
+            stamp = messages.sample_stamp(block, SAMPLES - 1, START_NS)
+            value = MeterValue(last, 16, 50.0, 1.0, 28.0, 55.0, 0.1, 1, Mode.UNKNOWN, Status.NONE)
+            found += [messages.compaction_meter(value, stamp), messages.cmv(value, stamp)]
+    return found
+
+
+@dataclass(frozen=True)
+class Written:
+    """A message as it went into a trace; compares with what `TraceReader` yields."""
+
+    topic: str
+    type_name: str
+    log_time_ns: int
+    publish_time_ns: int
+    data: bytes
+
+
+@dataclass(frozen=True)
+class Recording:
+    """A trace and what went into it."""
+
+    path: Path
+    written: list[Written]
+
+
+def write(
+    path: Path,
+    blocks: int = 24,
+    *,
+    flush_period_s: float = 3600.0,
+    namespace: str = "/",
+    overwrite: bool = False,
+) -> Recording:
+    configuration = Configuration()
+    written = []
+    with TraceWriter(
+        path,
+        run_metadata(configuration, START_NS, seed=7),
+        flush_period_s=flush_period_s,
+        overwrite=overwrite,
+    ) as trace:
+        names = register_all(trace, configuration.pacing, namespace)
+        for index, message in enumerate(make_messages(blocks)):
+            item = Written(
+                names[message.topic],
+                message.type_name,
+                message.stamp_ns + 1000 + index,
+                message.stamp_ns,
+                message.data,
+            )
+            trace.put(item.topic, item.data, item.log_time_ns, item.publish_time_ns)
+            written.append(item)
+    return Recording(path, written)
+
+
+@pytest.fixture
+def record(tmp_path: Path) -> Callable[..., Recording]:
+    """Write a trace in the test's own folder."""
+    return lambda name="trace.mcap", **options: write(tmp_path / name, **options)
+
+
+@pytest.fixture(scope="session")
+def chunked(tmp_path_factory: pytest.TempPathFactory) -> Recording:
+    """A trace in which every message is a chunk; not to be changed."""
+    return write(tmp_path_factory.mktemp("chunked") / "trace.mcap", 12, flush_period_s=0.0)
+
+
+@pytest.fixture(scope="session")
+def messages_written() -> list[Message]:
+    return make_messages(12)
