@@ -25,13 +25,17 @@ from roller_sim_ros.analysis.samples import (
 )
 from roller_sim_ros.analysis.topics import Selection, select
 from roller_sim_ros.meters import CompactionMeter, MeterValue, Status
-from roller_sim_ros.parameters import SAMPLES_PER_REVOLUTION, Meter
+from roller_sim_ros.parameters import PARAMETERS
 
 PROGRESS_MESSAGES = 1000
 """Messages between two reports of progress."""
 
 DRIFT_RAD = 0.3
 """Turn of an Imu stream's fundamental within a window at which its frequency is not what was found."""
+
+WINDOW = "meter.window_revolutions"
+NOISE_FLOOR = "meter.noise_floor_m_s2"
+SAMPLES = "sampling.samples_per_revolution"
 
 RECORDED, TRUE = "recorded", "true"
 """What is compared with the values computed anew; also the prefix of its columns in the history."""
@@ -46,11 +50,13 @@ class Options:
     topic, meter : str or None
         Topic with the acceleration, and with the meter values to compare with; found when None.
     window_revolutions : int or None
-        Even number of revolutions per value; that of the recorded meter, or the default, when None.
-    noise_floor_m_s2 : float
+        Even number of revolutions per value; that of the recorded meter, of the bag's parameters, or the
+        default, when None.
+    noise_floor_m_s2 : float or None
         Amplitude at the excitation frequency below which there is no value.
-    samples_per_revolution : int
-        Samples per revolution of a DrumAcceleration stream.
+    samples_per_revolution : int or None
+        Samples per revolution of a DrumAcceleration stream. Both: as the bag's parameters say, or the
+        defaults, when None.
     excitation_hz : float or None
         Excitation frequency of an Imu stream; found from its spectrum when None.
     """
@@ -58,8 +64,8 @@ class Options:
     topic: str | None = None
     meter: str | None = None
     window_revolutions: int | None = None
-    noise_floor_m_s2: float = Meter.noise_floor_m_s2
-    samples_per_revolution: int = SAMPLES_PER_REVOLUTION
+    noise_floor_m_s2: float | None = None
+    samples_per_revolution: int | None = None
     excitation_hz: float | None = None
 
 
@@ -155,9 +161,10 @@ def analyse(
     """
     options = options or Options()
     bag = open_bag(path)
-    if bag.damage and not any(topic.count for topic in bag.topics.values()):
-        raise BagError(f"{path}: {bag.damage} before its first message: nothing can be read")
-    selection = select(path, bag.topics, options.topic, options.meter)
+    try:
+        selection = select(path, bag.topics, options.topic, options.meter)
+    except BagError as error:
+        raise BagError(f"{error}{bag.damage and f' ({bag.damage})'}") from None
     try:
         return _Pass(path, bag, selection, options).run(on_progress or _ignore)
     except BagError as error:
@@ -172,14 +179,17 @@ class _Pass:
         self._bag = bag
         self._selection = selection
         rate = None
-        count = options.samples_per_revolution
+        count = options.samples_per_revolution or int(self._parameter(SAMPLES))
         self._reader: AccelerationReader | ImuReader = AccelerationReader()
         if selection.source.type == IMU_TYPE:
             rate = self._imu_rate(options.excitation_hz)
             count = rate.samples_per_revolution
             self._reader = ImuReader(rate)
         window = options.window_revolutions or self._recorded_window()
-        self._meter = CompactionMeter(window, options.noise_floor_m_s2, count)
+        floor = options.noise_floor_m_s2
+        if floor is None:
+            floor = self._parameter(NOISE_FLOOR)
+        self._meter = CompactionMeter(window, floor, count)
         self._kept = ExcerptKeeper(count)
         self._clean = 0
         self._count = count
@@ -218,11 +228,18 @@ class _Pass:
         return find_rate([item[0] for item in probe], [item[1] for item in probe], excitation_hz)
 
     def _recorded_window(self) -> int:
-        """Return the window of the recorded meter, the default when there is none."""
+        """Return the window of the recorded meter, the parameter when there is none."""
         if self._selection.meter:
             for received in self._bag.messages({self._selection.meter}):
                 return int(received.message.window_revolutions)
-        return Meter.window_revolutions
+        return int(self._parameter(WINDOW))
+
+    def _parameter(self, name: str) -> float:
+        """Return a parameter as the bag states it, or its default."""
+        try:
+            return float(self._bag.parameters.get(name, PARAMETERS[name][1]))
+        except ValueError:
+            return float(PARAMETERS[name][1])
 
     def run(self, on_progress: Callable[[float], None]) -> Analysis:
         """Read everything and return the result."""

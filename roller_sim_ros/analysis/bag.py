@@ -11,6 +11,8 @@ from pathlib import Path
 from typing import Any, Protocol
 
 from roller_sim_ros.errors import RollerSimError
+from roller_sim_ros.traces.bag import METADATA
+from roller_sim_ros.traces.errors import Problem, TraceError
 
 
 class BagError(RollerSimError):
@@ -64,8 +66,13 @@ class Bag(Protocol):
         ...
 
     @property
+    def parameters(self) -> Mapping[str, str]:
+        """Parameters of the run that were recorded with it, by their dotted names; often none."""
+        ...
+
+    @property
     def damage(self) -> str:
-        """What keeps the bag from being read to its end, empty as long as nothing does."""
+        """What of the bag cannot be used, empty as long as nothing is known of that."""
         ...
 
     @property
@@ -74,12 +81,12 @@ class Bag(Protocol):
         ...
 
     def messages(self, topics: Collection[str]) -> Iterator[Received]:
-        """Yield the messages of some topics; of a damaged bag those before the damage."""
+        """Yield the messages of some topics; of a damaged bag those that can be read."""
         ...
 
 
 def open_bag(path: Path) -> Bag:
-    """Open an MCAP file or a rosbag2 folder (with ``metadata.yaml``, MCAP or SQLite).
+    """Open an MCAP file or a rosbag2 folder, MCAP or what else rosbags reads (SQLite, compressed).
 
     Parameters
     ----------
@@ -88,17 +95,15 @@ def open_bag(path: Path) -> Bag:
 
     Raises
     ------
-    BagError
+    RollerSimError
         If there is nothing that can be read as a bag.
     """
-    from roller_sim_ros.analysis.mcap_file import McapFile
     from roller_sim_ros.analysis.rosbag2_folder import Rosbag2Folder
+    from roller_sim_ros.analysis.trace_bag import TraceBag
 
     try:
-        if path.is_dir():
+        return TraceBag(path)
+    except TraceError as error:
+        if error.problem is Problem.FOREIGN and (path / METADATA).is_file():
             return Rosbag2Folder(path)
-        return McapFile(path)
-    except FileNotFoundError:
-        raise BagError(f"{path}: there is no such file or folder") from None
-    except OSError as error:
-        raise BagError(f"{path}: cannot be read: {error.strerror or error}") from None
+        raise

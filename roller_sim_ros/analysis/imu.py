@@ -31,7 +31,7 @@ WHOLE = 6e-4
 """Relative deviation from a whole number of samples per revolution that is taken for none: over 16
 revolutions it turns the phase by 1 % of a revolution, and RMV is off by less than 0.5."""
 
-SPACING = 0.1
+SPACING = 0.25
 """Deviation of a stamp from the equidistant ones, in sample periods, that is taken for rounding."""
 
 CHECKED_REVOLUTIONS = 16
@@ -206,7 +206,7 @@ class ImuReader:
     def _spacing_changes(self, period_s: float) -> BagError:
         return BagError(
             f"the Imu stamps change their spacing from {self.rate.sample_period_s * 1e3:.6g} to "
-            f"{period_s * 1e3:.6g} ms after {self._index} samples: the excitation does not stay constant, "
+            f"{period_s * 1e3:.6g} ms after {self._index + 1} samples: the excitation does not stay constant, "
             "and an Imu stream does not tell its phase"
         )
 

@@ -24,6 +24,7 @@ class RecentSamples:
 
     def write(self, first_sample: int, values: NDArray[np.floating]) -> None:
         """Keep the samples of a block, shape (channels, n)."""
+        first_sample += max(0, values.shape[1] - self._capacity)
         values = values[:, -self._capacity :]
         indices = first_sample + np.arange(values.shape[1])
         slots = indices % self._capacity

@@ -1,4 +1,4 @@
-"""Reading a rosbag2 folder: ``metadata.yaml`` and one or more MCAP or SQLite files."""
+"""A rosbag2 folder in SQLite, or compressed by rosbag2: what `traces` does not read, rosbags does."""
 
 from __future__ import annotations
 
@@ -35,13 +35,9 @@ class Rosbag2Folder:
         self.path = path
         self.damage = ""
         self.progress = 0.0
+        self.parameters: dict[str, str] = {}
         self.topics: dict[str, Topic] = {}
         self._decoder = Decoder()
-        if not (path / "metadata.yaml").is_file():
-            raise BagError(
-                f"{path}: has no metadata.yaml, so it is no rosbag2 folder; `ros2 bag reindex` makes "
-                "one, and a single MCAP file can be given by its own name"
-            )
         with self._open() as reader:
             for connection in reader.connections:
                 before = self.topics.get(connection.topic)
@@ -71,7 +67,7 @@ class Rosbag2Folder:
                 except StopIteration:
                     break
                 except _DAMAGE as error:
-                    self.damage = f"the bag is damaged after {self.progress:.0%}: {error}"
+                    self.damage = f"{self.path}: it is damaged after {self.progress:.0%}: {error}"
                     break
                 self.progress = (time_ns - start) / duration
                 message = self._decoder.decode(data, connection.msgtype)

@@ -105,8 +105,9 @@ def _source(path: Path, topics: Mapping[str, Topic], name: str | None) -> Topic:
             raise BagError(
                 f"{path}: several topics hold {wanted}; choose one with --topic: {names}"
             )
-        if found:
-            raise BagError(f"{path}: there are no messages on {found[0].name}")
+    empty = [topic.name for topic in topics.values() if topic.type in _SOURCES]
+    if empty:
+        raise BagError(f"{path}: there are no messages on {', '.join(empty)}")
     raise BagError(
         f"{path}: holds neither {ACCELERATION_TYPE} nor {IMU_TYPE}; its topics: {_listed(topics)}"
     )

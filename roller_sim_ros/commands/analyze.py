@@ -25,7 +25,7 @@ EPILOG = """\
 example:
   roller-sim analyze trace.mcap --plot trace.png --csv trace.csv
 
-The exit code is 1 when the bag cannot be read, or not to its end: then what was read is shown all the
+The exit code is 1 when the bag cannot be read, or not all of it: then what was read is shown all the
 same. Differences between recorded and computed values are shown, not judged.
 """
 
@@ -77,9 +77,8 @@ def main(argv: list[str] | None = None) -> int:
         write_figure(analysis, arguments.plot)
     if analysis.damage:
         raise RollerSimError(
-            f"{arguments.bag}: {analysis.damage}; {sum(analysis.messages.values())} messages over "
-            f"{analysis.duration_s:.3f} s were read before that; "
-            f"`roller-sim recover {arguments.bag}` makes it whole"
+            f"{analysis.damage}; {sum(analysis.messages.values())} messages over "
+            f"{analysis.duration_s:.3f} s were read all the same"
         )
     return 0
 
@@ -123,23 +122,22 @@ def _parser() -> argparse.ArgumentParser:
         "--window-revolutions",
         metavar="N",
         type=_even,
-        help="revolutions per meter value, an even number (default: that of the recorded meter, else "
+        help="revolutions per meter value, an even number (default: that of the recorded meter or run, else "
         f"{PARAMETERS['meter.window_revolutions'][1]})",
     )
     parser.add_argument(
         "--noise-floor",
         metavar="A",
         type=_not_negative,
-        default=PARAMETERS["meter.noise_floor_m_s2"][1],
-        help="amplitude at the excitation frequency below which there is no value, m/s² "
-        "(default: %(default)s)",
+        help="amplitude at the excitation frequency below which there is no value, m/s² (default: that "
+        f"of the recorded run, else {PARAMETERS['meter.noise_floor_m_s2'][1]})",
     )
     parser.add_argument(
         "--samples-per-rev",
         metavar="N",
         type=_samples,
-        default=SAMPLES_PER_REVOLUTION,
-        help="samples per revolution of a DrumAcceleration trace (default: %(default)s)",
+        help="samples per revolution of a DrumAcceleration trace (default: that of the recorded run, else "
+        f"{SAMPLES_PER_REVOLUTION})",
     )
     parser.add_argument(
         "--frequency-hz",
