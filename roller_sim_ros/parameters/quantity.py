@@ -107,7 +107,8 @@ def check(name: str, quantity: Quantity, default: Value, value: object) -> Value
             raise ParameterError(name, value, f"must be one of {', '.join(quantity.choices)}")
         return value
     if isinstance(value, bool) or not isinstance(value, int | float):
-        raise ParameterError(name, value, "must be a number")
+        of = f" of {quantity.unit}" if quantity.unit else ""
+        raise ParameterError(name, value, f"must be a number{of}")
     if isinstance(default, int) and float(value) != int(value if math.isfinite(value) else 0):
         raise ParameterError(name, value, "must be a whole number")
     if not math.isfinite(value):

@@ -55,6 +55,7 @@ LAYERS = (
     "emulation",
     "traces",
     "analysis",
+    "offline",
     "node",
     "commands",
 )

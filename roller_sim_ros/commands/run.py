@@ -1,0 +1,158 @@
+"""``roller-sim run``: the roller without ROS."""
+
+from __future__ import annotations
+
+import argparse
+import json
+import time
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from roller_sim_ros.commands.flags import add_parameter_flags, given_values
+from roller_sim_ros.commands.progress import progress
+from roller_sim_ros.errors import RollerSimError
+from roller_sim_ros.parameters import Configuration
+from roller_sim_ros.parameters.file import read_parameters
+
+if TYPE_CHECKING:
+    from roller_sim_ros.offline.run import Tail
+
+DESCRIPTION = """\
+Run the roller without ROS, as fast as it goes, from static equilibrium with the exciter at once at its full
+frequency and amplitude, and show the settled values over the last 64 revolutions: period, CMV, RMV, greatest
+soil force over the static one, extreme accelerations in g, share of the time in the air.
+"""
+
+EPILOG = """\
+examples:
+  roller-sim run --shear-modulus-mpa 80 --plastic-mm 0.5 --plot run.png
+  roller-sim run --params config/loose.yaml --run-up --record trace.mcap
+  roller-sim run --amplitude-mm 0.8 --json - | python3 -m json.tool
+
+A trace holds the topics that the node publishes, with the same bytes. The exit code is 0 when the run came to
+its end, whatever the roller did.
+"""
+
+
+def main(argv: list[str] | None = None) -> int:
+    """Run the command.
+
+    Parameters
+    ----------
+    argv : list of str, optional
+        Arguments; those of the process when left out.
+
+    Returns
+    -------
+    int
+        0.
+
+    Raises
+    ------
+    RollerSimError
+        If a parameter is refused, or a file cannot be read or written.
+    """
+    arguments = _parser().parse_args(argv)
+    configuration = _configuration(arguments)
+    # What takes long to import comes after --help.
+    from roller_sim_ros.offline.report import as_object, as_table
+
+    tail = _run(configuration, arguments)
+    report = as_object(configuration, tail, arguments.revolutions)
+    if arguments.json is not None:
+        _write_json(report, arguments.json)
+    if arguments.json != "-":
+        print(as_table(report))
+    if arguments.plot is not None:
+        from roller_sim_ros.offline.figure import write_figure
+
+        write_figure(configuration, tail, arguments.revolutions, arguments.plot)
+    return 0
+
+
+def _configuration(arguments: argparse.Namespace) -> Configuration:
+    """Return the defaults, changed by the file, changed by the flags."""
+    configuration = Configuration()
+    if arguments.params is not None:
+        configuration = configuration.changed(read_parameters(arguments.params))
+    return configuration.changed(given_values(arguments))
+
+
+def _run(configuration: Configuration, arguments: argparse.Namespace) -> Tail:
+    from roller_sim_ros.offline.run import run, step_whole_revolutions
+
+    run_up = arguments.run_up
+    samples = configuration.sampling.samples_per_revolution
+    show = progress("running", always=arguments.progress)
+    if not configuration.recording.path:
+        step = step_whole_revolutions(configuration, run_up=run_up)
+        return run(step, arguments.revolutions, samples, show)
+    from roller_sim_ros.offline.recording import record_steps
+
+    path = Path(configuration.recording.path)
+    with record_steps(configuration, path, start_ns=time.time_ns(), run_up=run_up) as step:
+        return run(step, arguments.revolutions, samples, show)
+
+
+def _parser() -> argparse.ArgumentParser:
+    parser = argparse.ArgumentParser(
+        prog="roller-sim run",
+        description=DESCRIPTION,
+        epilog=EPILOG,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+    )
+    parser.add_argument(
+        "--revolutions",
+        metavar="N",
+        type=_revolutions,
+        default=1000,
+        help="revolutions to run, at least 2; below the sampling floor: as many samples (default: %(default)s)",
+    )
+    parser.add_argument(
+        "--run-up",
+        action="store_true",
+        help="start the exciter from standstill, at its limited rates of frequency and amplitude",
+    )
+    parser.add_argument(
+        "--json",
+        metavar="FILE",
+        help="write the values and all parameters as one JSON object; -: to the standard output",
+    )
+    parser.add_argument(
+        "--plot",
+        metavar="FILE",
+        type=Path,
+        help="draw the last revolutions: acceleration, force against displacement, spectrum in orders; "
+        "png, pdf or svg",
+    )
+    parser.add_argument(
+        "--progress",
+        action="store_true",
+        help="show progress on the standard error also when that is no terminal",
+    )
+    parser.add_argument(
+        "--params",
+        metavar="FILE",
+        type=Path,
+        help="YAML file with parameters in SI units, as a ROS 2 node reads it or plainly nested; flags win over it",
+    )
+    add_parameter_flags(parser)
+    return parser
+
+
+def _revolutions(text: str) -> int:
+    number = int(text)
+    if number < 2:
+        raise argparse.ArgumentTypeError(f"{number} is less than 2")
+    return number
+
+
+def _write_json(report: dict[str, object], name: str) -> None:
+    text = json.dumps(report, indent=2, ensure_ascii=False, allow_nan=False)
+    if name == "-":
+        print(text)
+        return
+    try:
+        Path(name).write_text(text + "\n", encoding="utf-8")
+    except OSError as error:
+        raise RollerSimError(f"{name}: cannot be written: {error.strerror or error}") from None

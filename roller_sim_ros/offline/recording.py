@@ -1,0 +1,67 @@
+"""A run that leaves the trace that the node would: the same topics with the same bytes."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+
+from roller_sim_ros.emulation import Emulator
+from roller_sim_ros.offline.run import Step
+from roller_sim_ros.parameters import Configuration
+from roller_sim_ros.parameters.file import NODE
+from roller_sim_ros.session import Block
+from roller_sim_ros.traces.metadata import run_metadata
+from roller_sim_ros.traces.registration import register_all
+from roller_sim_ros.traces.writer import TraceWriter
+from roller_sim_ros.wire.messages import parameter_event
+
+
+@contextmanager
+def record_steps(
+    configuration: Configuration, path: Path, *, start_ns: int, run_up: bool
+) -> Iterator[Step]:
+    """Yield what steps a new emulator block by block and records all of its messages.
+
+    They are logged and published at the simulated end of their block, when the node would have them.
+
+    Parameters
+    ----------
+    configuration : Configuration
+        What is emulated; ``pacing`` gives the size of the blocks.
+    path : pathlib.Path
+        The trace; must not exist yet.
+    start_ns : int
+        Stamp of the first sample, ns since the epoch.
+    run_up : bool
+        Start the exciter from standstill.
+
+    Raises
+    ------
+    ParameterError
+        If the configuration has not 128 samples per revolution.
+    TraceError
+        If the trace cannot be written.
+    """
+    emulator = Emulator(configuration, start_ns=start_ns, run_up=run_up)
+    samples = configuration.pacing.samples_per_message
+    with TraceWriter(
+        path,
+        run_metadata(configuration, start_ns),
+        flush_period_s=configuration.recording.flush_period_s,
+    ) as trace:
+        names = register_all(trace, configuration.pacing)
+        declared = parameter_event(f"/{NODE}", configuration.flat(), start_ns)
+        trace.put(names[declared.topic], declared.data, start_ns, start_ns)
+
+        def step() -> Block:
+            messages = emulator.advance(samples)
+            block = emulator.block
+            assert block is not None  # set by advance
+            end_s = block.time_s + len(block) * block.sample_period_s
+            end_ns = start_ns + round(end_s * 1e9)
+            for message in messages:
+                trace.put(names[message.topic], message.data, end_ns, end_ns)
+            return block
+
+        yield step
