@@ -5,29 +5,30 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Any
 
-import matplotlib as mpl
 import numpy as np
 from matplotlib.axes import Axes
-from matplotlib.backends.backend_agg import FigureCanvasAgg
-from matplotlib.figure import Figure
 from matplotlib.patches import Patch
 from numpy.typing import NDArray
 
 from roller_sim_ros.analysis.analyse import Analysis
 from roller_sim_ros.analysis.excerpt import Excerpt
-from roller_sim_ros.errors import RollerSimError
+from roller_sim_ros.analysis.panels import (
+    BLUE,
+    ORANGE,
+    draw_acceleration,
+    draw_force,
+    draw_spectrum,
+    drawn_figure,
+    say_nothing,
+)
 from roller_sim_ros.meters import Mode
-from roller_sim_ros.meters.harmonics import order_amplitudes
-from roller_sim_ros.meters.registry import ORDERS, evaluate
 from roller_sim_ros.parameters import GRAVITY_M_S2
-from roller_sim_ros.session.block import AIR
 
 SHOWN_REVOLUTIONS = 8
-HIGHEST_ORDER = 6.0
+NOTHING = "no settled revolutions"
 BAND_COLUMNS = 1000
 """Values of the mode that the band shows; a long trace has more than it has pixels."""
 
-BLUE, ORANGE, GREY, LIGHT = "#1f5a94", "#c8591a", "#6b6b6b", "#dfe6ee"
 MODE_COLOURS = {
     Mode.UNKNOWN: "#e6e6e6",
     Mode.CONTINUOUS_CONTACT: "#a6cf98",
@@ -35,21 +36,6 @@ MODE_COLOURS = {
     Mode.DOUBLE_JUMP: "#f2b84b",
     Mode.QUAD_JUMP: "#e07b39",
     Mode.CHAOTIC: "#b3362b",
-}
-STYLE: dict[Any, Any] = {
-    "font.size": 8.0,
-    "axes.titlesize": 8.0,
-    "axes.titlelocation": "left",
-    "axes.linewidth": 0.6,
-    "axes.spines.top": False,
-    "axes.spines.right": False,
-    "lines.linewidth": 0.9,
-    "xtick.direction": "in",
-    "ytick.direction": "in",
-    "xtick.major.width": 0.6,
-    "ytick.major.width": 0.6,
-    "legend.frameon": False,
-    "legend.fontsize": 7.0,
 }
 
 
@@ -61,9 +47,7 @@ def write_figure(analysis: Analysis, path: Path) -> None:
     RollerSimError
         If the file cannot be written or the format is none that there is.
     """
-    with mpl.rc_context(STYLE):
-        figure = Figure(figsize=(7.2, 5.2), dpi=200, layout="constrained")
-        FigureCanvasAgg(figure)
+    with drawn_figure(path) as figure:
         panels = figure.subplots(2, 2)
         _draw_acceleration(panels[0, 0], analysis)
         _draw_spectrum(panels[0, 1], analysis.excerpt)
@@ -72,65 +56,30 @@ def write_figure(analysis: Analysis, path: Path) -> None:
         else:
             _draw_fundamental(panels[1, 0], analysis)
         _draw_history(panels[1, 1], analysis)
-        try:
-            figure.savefig(path)
-        except OSError as error:
-            raise RollerSimError(f"{path}: cannot be written: {error.strerror or error}") from None
-        except ValueError as error:
-            raise RollerSimError(f"{path}: cannot be drawn: {error}") from None
 
 
 def _draw_acceleration(axes: Axes, analysis: Analysis) -> None:
     axes.set_title("(a) Vertical drum acceleration")
     excerpt = analysis.excerpt
     if excerpt is None:
-        _say_nothing(axes)
+        say_nothing(axes, NOTHING)
         return
     count = min(excerpt.revolutions, SHOWN_REVOLUTIONS) * excerpt.samples_per_revolution
     turns = np.arange(count) / excerpt.samples_per_revolution
     offset = GRAVITY_M_S2 if analysis.specific_force else 0.0
-    axes.plot(turns, (excerpt.vertical[-count:] - offset) / GRAVITY_M_S2, color=BLUE)
-    if excerpt.contact_state is not None:
-        air = excerpt.contact_state[-count:] == AIR
-        axes.fill_between(
-            turns,
-            0,
-            1,
-            where=list(air),
-            transform=axes.get_xaxis_transform(),
-            color=LIGHT,
-            linewidth=0,
-            zorder=0,
-        )
+    state = None if excerpt.contact_state is None else excerpt.contact_state[-count:]
+    draw_acceleration(axes, turns, excerpt.vertical[-count:] - offset, state)
+    if state is not None:
         axes.set_title("(a) Vertical drum acceleration (shaded: in the air)")
-    axes.axhline(0.0, color=GREY, linewidth=0.4)
-    axes.set_xlim(0, round(turns[-1]))
     axes.set_xlabel(f"revolutions of the eccentric ({excerpt.excitation_hz:.4g} Hz)")
-    axes.set_ylabel("acceleration, g, up positive")
 
 
 def _draw_spectrum(axes: Axes, excerpt: Excerpt | None) -> None:
     axes.set_title("(b) Spectrum in orders of the excitation")
     if excerpt is None:
-        _say_nothing(axes)
-        return
-    amplitudes = 2.0 * np.abs(np.fft.rfft(excerpt.vertical)) / len(excerpt.vertical)
-    orders = np.arange(len(amplitudes)) / excerpt.revolutions
-    shown = (orders > 0.0) & (orders <= HIGHEST_ORDER)
-    floor = max(float(amplitudes[shown].max()) * 1e-4, 1e-9)
-    axes.vlines(orders[shown], floor, np.maximum(amplitudes[shown], floor), BLUE, linewidth=0.9)
-    harmonics = order_amplitudes(excerpt.vertical, ORDERS, excerpt.samples_per_revolution)
-    for order in ORDERS:
-        height = harmonics.amplitude(order)
-        if height > 2.0 * floor:
-            axes.plot([order], [height], "o", color=ORANGE, markersize=3)
-    values = ", ".join(f"{name.upper()} {value:.1f}" for name, value in evaluate(harmonics).items())
-    axes.text(0.98, 0.96, values, transform=axes.transAxes, ha="right", va="top")
-    axes.set_yscale("log")
-    axes.set_ylim(floor, float(amplitudes[shown].max()) * 3.0)
-    axes.set_xlim(0, HIGHEST_ORDER + 0.25)
-    axes.set_xlabel(f"order (DFT of {excerpt.revolutions} revolutions)")
-    axes.set_ylabel("amplitude, m/s²")
+        say_nothing(axes, NOTHING)
+    else:
+        draw_spectrum(axes, excerpt.vertical, excerpt.samples_per_revolution)
 
 
 def _draw_force(axes: Axes, excerpt: Excerpt) -> None:
@@ -138,14 +87,7 @@ def _draw_force(axes: Axes, excerpt: Excerpt) -> None:
     if excerpt.soil_force is None or excerpt.drum_height is None:
         return
     count = min(excerpt.revolutions, SHOWN_REVOLUTIONS) * excerpt.samples_per_revolution
-    height, force = excerpt.drum_height[-count:], excerpt.soil_force[-count:]
-    blows = np.flatnonzero((force[:-1] == 0.0) & (force[1:] > 0.0))
-    origin = height[blows[0]] if len(blows) else height.mean()
-    axes.plot((origin - height) * 1e3, force * 1e-3, color=BLUE)
-    axes.set_ylim(bottom=0)
-    zero = "the first contact" if len(blows) else "the mean"
-    axes.set_xlabel(f"displacement, mm, down positive; 0 at {zero}")
-    axes.set_ylabel("soil force, kN")
+    draw_force(axes, excerpt.drum_height[-count:], excerpt.soil_force[-count:])
 
 
 def _draw_fundamental(axes: Axes, analysis: Analysis) -> None:
@@ -214,17 +156,3 @@ def _draw_modes(axes: Axes, time_s: NDArray[np.float64], modes: NDArray[np.int64
         )
         named.setdefault(mode, band)
     return [named[mode] for mode in sorted(named)]
-
-
-def _say_nothing(axes: Axes) -> None:
-    axes.text(
-        0.5,
-        0.5,
-        "no settled revolutions",
-        transform=axes.transAxes,
-        ha="center",
-        va="center",
-        color=GREY,
-    )
-    axes.set_xticks([])
-    axes.set_yticks([])

@@ -20,7 +20,6 @@ from roller_sim_ros.meters.registry import ORDERS, evaluate
 from roller_sim_ros.parameters import GRAVITY_M_S2
 from roller_sim_ros.session.block import AIR
 
-SHOWN_REVOLUTIONS = 8
 HIGHEST_ORDER = 6.0
 
 BLUE, ORANGE, GREY, LIGHT = "#1f5a94", "#c8591a", "#6b6b6b", "#dfe6ee"

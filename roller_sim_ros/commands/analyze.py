@@ -4,10 +4,9 @@ from __future__ import annotations
 
 import argparse
 import json
-import sys
-from collections.abc import Callable
 from pathlib import Path
 
+from roller_sim_ros.commands.progress import progress
 from roller_sim_ros.errors import RollerSimError
 from roller_sim_ros.parameters import PARAMETERS, SAMPLES_PER_REVOLUTION
 
@@ -61,7 +60,7 @@ def main(argv: list[str] | None = None) -> int:
         samples_per_revolution=arguments.samples_per_rev,
         excitation_hz=arguments.frequency_hz,
     )
-    analysis = analyse(arguments.bag, options, _progress(arguments.progress))
+    analysis = analyse(arguments.bag, options, progress("reading", always=arguments.progress))
     report = as_object(analysis)
     if arguments.json is not None:
         _write_json(report, arguments.json)
@@ -179,28 +178,6 @@ def _positive(text: str) -> float:
     if not 0.0 < number < float("inf"):
         raise argparse.ArgumentTypeError(f"{text} is not a positive number")
     return number
-
-
-def _progress(always: bool) -> Callable[[float], None] | None:
-    """Return what shows the progress, at most once per percent."""
-    terminal = sys.stderr.isatty()
-    if not (terminal or always):
-        return None
-    shown = -1
-
-    def show(share: float) -> None:
-        nonlocal shown
-        percent = int(100.0 * share)
-        if percent == shown:
-            return
-        shown = percent
-        if terminal:
-            end = "\r\x1b[K" if percent >= 100 else ""
-            print(f"\rreading {percent} %", end=end, file=sys.stderr, flush=True)
-        else:
-            print(f"reading {percent} %", file=sys.stderr, flush=True)
-
-    return show
 
 
 def _write_json(report: dict[str, object], name: str) -> None:
