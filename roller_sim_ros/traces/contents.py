@@ -12,6 +12,7 @@ from mcap.data_stream import ReadDataStream
 from mcap.opcode import Opcode
 from mcap.records import Channel, Footer, Metadata, MetadataIndex, Schema, Statistics
 
+from roller_sim_ros.traces.errors import reading_error
 from roller_sim_ros.traces.frames import MAGIC, Damage, FrameReader, open_trace
 from roller_sim_ros.traces.records import UNREADABLE, RawMessage, Record, TraceRecords
 
@@ -46,29 +47,6 @@ class TopicInfo:
     encoding: str
     offered_qos_profiles: str
     messages: int = 0
-
-
-@dataclass
-class Contents:
-    """What one file holds.
-
-    Attributes
-    ----------
-    topics : dict
-        `TopicInfo` by name.
-    metadata : dict
-        Metadata records by name; the last of a name counts.
-    start_ns, end_ns : int
-        First and last log time, ns since the epoch; 0 without messages.
-    damages : list of Damage
-        What cannot be used, if the file had to be read for its contents.
-    """
-
-    topics: dict[str, TopicInfo] = field(default_factory=dict)
-    metadata: dict[str, dict[str, str]] = field(default_factory=dict)
-    start_ns: int = 0
-    end_ns: int = 0
-    damages: list[Damage] = field(default_factory=list)
 
 
 class ChannelTable:
@@ -113,6 +91,32 @@ class ChannelTable:
         return found
 
 
+@dataclass
+class Contents:
+    """What one file holds.
+
+    Attributes
+    ----------
+    table : ChannelTable
+        Schemas and channels, wherever in the file they stand.
+    topics : dict
+        `TopicInfo` by name.
+    metadata : dict
+        Metadata records by name; the last of a name counts.
+    start_ns, end_ns : int
+        First and last log time, ns since the epoch; 0 without messages.
+    damages : list of Damage
+        What cannot be used, if the file had to be read for its contents.
+    """
+
+    table: ChannelTable = field(default_factory=ChannelTable)
+    topics: dict[str, TopicInfo] = field(default_factory=dict)
+    metadata: dict[str, dict[str, str]] = field(default_factory=dict)
+    start_ns: int = 0
+    end_ns: int = 0
+    damages: list[Damage] = field(default_factory=list)
+
+
 def told(records: TraceRecords, progress: Progress | None) -> Iterator[Record]:
     """Iterate over records and tell the progress as it changes."""
     done = -1
@@ -132,18 +136,23 @@ def read_contents(path: Path, progress: Progress | None = None) -> Contents:
         As `roller_sim_ros.traces.frames.open_trace`.
     """
     with open_trace(path) as stream:
-        contents = _from_summary(stream)
+        try:
+            contents = _from_summary(stream)
+        except OSError as error:
+            raise reading_error(path, error) from error
     return contents or _from_all(path, progress)
 
 
 def _from_summary(stream: BinaryIO) -> Contents | None:
     """Return the contents by the summary, None if the file has none that tells all."""
-    table = ChannelTable()
     contents = Contents()
+    table = contents.table
     statistics: Statistics | None = None
     indexes: list[MetadataIndex] = []
     try:
         size = stream.seek(0, 2)
+        if size < len(MAGIC) + _FOOTER_SIZE:
+            return None
         footer_at = stream.seek(size - _FOOTER_SIZE)
         (footer_frame,) = FrameReader(stream, size)
         if footer_frame.opcode != Opcode.FOOTER:
@@ -165,6 +174,8 @@ def _from_summary(stream: BinaryIO) -> Contents | None:
         if statistics is None or not _complete(statistics, table, indexes):
             return None
         for index in indexes:
+            if index.offset > size:
+                return None
             stream.seek(index.offset + 9)
             metadata = Metadata.read(ReadDataStream(stream))
             contents.metadata[metadata.name] = metadata.metadata
@@ -186,8 +197,8 @@ def _complete(statistics: Statistics, table: ChannelTable, indexes: list[Metadat
 
 
 def _from_all(path: Path, progress: Progress | None) -> Contents:
-    table = ChannelTable()
     contents = Contents()
+    table = contents.table
     counts: dict[int, int] = {}
     with TraceRecords(path) as records:
         for record in told(records, progress):

@@ -6,8 +6,6 @@ from collections.abc import Collection, Iterator
 from pathlib import Path
 from typing import NamedTuple
 
-from mcap.records import Channel
-
 from roller_sim_ros.traces.bag import trace_files
 from roller_sim_ros.traces.contents import (
     ChannelTable,
@@ -85,11 +83,11 @@ class TraceReader:
         self.metadata: dict[str, dict[str, str]] = {}
         self.start_ns = self.end_ns = 0
         self.size = 0
-        self._files = trace_files(path)
+        self._files = [(file, read_contents(file, progress)) for file in trace_files(path)]
         self._damages: dict[tuple[Path, int], Damage] = {}
         self._position = 0
-        for file in self._files:
-            self._add(file, read_contents(file, progress))
+        for file, contents in self._files:
+            self._add(file, contents)
         if not self.topics:
             raise TraceError(
                 path, Problem.EMPTY, "it holds no topic of ROS 2", "there is nothing to read in it"
@@ -117,9 +115,9 @@ class TraceReader:
         """
         wanted = self.topics.keys() if topics is None else self.topics.keys() & set(topics)
         before = 0
-        for file in self._files:
+        for file, contents in self._files:
             with TraceRecords(file) as records:
-                for message in _messages(records, wanted):
+                for message in _messages(records, contents.table, wanted):
                     self._position = before + records.position
                     yield message
                 self._note(file, records.damages)
@@ -158,20 +156,20 @@ class TraceReader:
             self._damages[file, damage.offset] = damage
 
 
-def _messages(records: TraceRecords, wanted: Collection[str]) -> Iterator[TraceMessage]:
-    table = ChannelTable()
-    names: dict[int, tuple[str, str] | None] = {}
+def _messages(
+    records: TraceRecords, table: ChannelTable, wanted: Collection[str]
+) -> Iterator[TraceMessage]:
+    names = {
+        number: (channel.topic, table.type_name(channel))
+        for number, channel in table.channels.items()
+        if channel.message_encoding == ENCODING and channel.topic in wanted
+    }
     for record in records:
-        if isinstance(record, RawMessage):
-            name = names.get(record.channel_id)
-            if name:
-                yield TraceMessage(
-                    *name,
-                    record.log_time_ns,
-                    record.publish_time_ns,
-                    record.data,
-                    record.sequence,
-                )
-        elif table.take(record) and isinstance(record, Channel):
-            use = record.message_encoding == ENCODING and record.topic in wanted
-            names[record.id] = (record.topic, table.type_name(record)) if use else None
+        if isinstance(record, RawMessage) and record.channel_id in names:
+            yield TraceMessage(
+                *names[record.channel_id],
+                record.log_time_ns,
+                record.publish_time_ns,
+                record.data,
+                record.sequence,
+            )

@@ -15,8 +15,9 @@ import zstandard
 from mcap.data_stream import ReadDataStream
 from mcap.exceptions import McapError
 from mcap.opcode import Opcode
-from mcap.records import Attachment, Channel, Chunk, Footer, Header, Metadata, Schema
+from mcap.records import Attachment, Channel, Chunk, Footer, Header, Metadata, Schema, Statistics
 
+from roller_sim_ros.traces.errors import reading_error
 from roller_sim_ros.traces.frames import Damage, Frame, FrameReader, open_trace
 
 _MESSAGE = struct.Struct("<HIQQ")
@@ -74,14 +75,16 @@ class TraceRecords:
     Raises
     ------
     TraceError
-        On construction, as `open_trace`.
+        On construction as `open_trace`; in the iteration if the system fails to read on.
     """
 
     def __init__(self, path: Path) -> None:
+        self.path = path
         self._stream = open_trace(path)
         self.size = os.fstat(self._stream.fileno()).st_size
         self.damages: list[Damage] = []
         self.salvaged = 0
+        self._messages = 0
         self._frames = FrameReader(self._stream, self.size)
         self._lost: Damage | None = None
 
@@ -101,6 +104,12 @@ class TraceRecords:
         self.close()
 
     def __iter__(self) -> Iterator[Record]:
+        try:
+            yield from self._all()
+        except OSError as error:
+            raise reading_error(self.path, error) from error
+
+    def _all(self) -> Iterator[Record]:
         for frame in self._frames:
             if frame.opcode == Opcode.MESSAGE_INDEX:
                 self._count_lost(frame)
@@ -109,13 +118,14 @@ class TraceRecords:
             try:
                 records = list(self._read(frame))
             except UNREADABLE as error:
-                what = "a chunk" if frame.opcode == Opcode.CHUNK else "a record"
-                self._lost = Damage(
-                    frame.offset, _FRAME.size + len(frame.content), f"{what} is damaged ({error})"
-                )
+                what = _NAMES.get(frame.opcode, "a record")
+                length = _FRAME.size + len(frame.content)
+                self._lost = Damage(frame.offset, length, f"{what} is damaged: {error}")
                 self.damages.append(self._lost)
                 continue
-            yield from records
+            for record in records:
+                self._messages += isinstance(record, RawMessage)
+                yield record
         if self._frames.damage:
             yield from self._salvage()
             self.damages.append(self._frames.damage)
@@ -128,6 +138,8 @@ class TraceRecords:
             yield RawMessage._make((*_MESSAGE.unpack_from(content), content[_MESSAGE.size :]))
         elif opcode == Opcode.FOOTER:
             self._check_summary(Footer.read(ReadDataStream(BytesIO(content))), frame.offset)
+        elif opcode == Opcode.STATISTICS:
+            self._check_statistics(Statistics.read(ReadDataStream(BytesIO(content))))
         elif opcode in _PLAIN:
             yield _PLAIN[opcode](ReadDataStream(BytesIO(content)))
 
@@ -136,6 +148,13 @@ class TraceRecords:
         if self._lost and len(index.content) >= _INDEX_HEAD.size:
             _, length = _INDEX_HEAD.unpack_from(index.content)
             self._lost.messages += length // _INDEX_ENTRY
+
+    def _check_statistics(self, statistics: Statistics) -> None:
+        """Find losses that leave no other trace, as of a chunk whose kind has changed."""
+        if not self.damages and statistics.message_count != self._messages:
+            raise ValueError(
+                f"it counts {statistics.message_count} messages in the file, there are {self._messages}"
+            )
 
     def _check_summary(self, footer: Footer, offset: int) -> None:
         if not footer.summary_crc:
@@ -165,6 +184,13 @@ _PLAIN: dict[int, Callable[[ReadDataStream], Record]] = {
     Opcode.CHANNEL: Channel.read,
     Opcode.METADATA: Metadata.read,
     Opcode.ATTACHMENT: Attachment.read,
+}
+
+
+_NAMES: dict[int, str] = {
+    Opcode.CHUNK: "a chunk",
+    Opcode.STATISTICS: "the summary",
+    Opcode.FOOTER: "the summary",
 }
 
 

@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 
 import numpy as np
 import pytest
+from mcap.writer import CompressionType, Writer
 
 from roller_sim_ros.meters import MeterValue, Mode, Status, TruthValue
 from roller_sim_ros.parameters import Configuration
@@ -20,6 +21,7 @@ from roller_sim_ros.traces.writer import TraceWriter
 from roller_sim_ros.wire import messages
 from roller_sim_ros.wire.imu import imu
 from roller_sim_ros.wire.messages import Message
+from roller_sim_ros.wire.types import schema
 
 START_NS = 1_700_000_000_000_000_000
 SAMPLES = 16
@@ -87,7 +89,7 @@ class Written:
     type_name: str
     log_time_ns: int
     publish_time_ns: int
-    data: bytes
+    data: bytes = field(repr=False)
 
 
 @dataclass(frozen=True)
@@ -95,7 +97,7 @@ class Recording:
     """A trace and what went into it."""
 
     path: Path
-    written: list[Written]
+    written: list[Written] = field(repr=False)
 
 
 def write(
@@ -143,3 +145,43 @@ def chunked(tmp_path_factory: pytest.TempPathFactory) -> Recording:
 @pytest.fixture(scope="session")
 def messages_written() -> list[Message]:
     return make_messages(12)
+
+
+def write_foreign(path: Path, compression: CompressionType, *, chunks: bool) -> Recording:
+    """A trace as another program writes it: own chunk size and compression, or no chunks at all."""
+    written = []
+    with path.open("wb") as stream:
+        writer = Writer(stream, chunk_size=3000, compression=compression, use_chunking=chunks)
+        writer.start(profile="ros2", library="another")
+        writer.add_metadata("site", {"lane": "7"})
+        channels: dict[str, int] = {}
+        for index, message in enumerate(make_messages(12)):
+            topic = f"/{message.topic}".replace("//", "/")
+            if topic not in channels:
+                known = schema(message.type_name)
+                number = writer.register_schema(known.name, "ros2msg", known.text.encode())
+                channels[topic] = writer.register_channel(
+                    topic, "cdr", number, {"offered_qos_profiles": ""}
+                )
+            time_ns = message.stamp_ns
+            writer.add_message(channels[topic], time_ns + index, message.data, time_ns)
+            written.append(
+                Written(topic, message.type_name, time_ns + index, time_ns, message.data)
+            )
+        writer.finish()
+    return Recording(path, written)
+
+
+@pytest.fixture(scope="session")
+def foreign(tmp_path_factory: pytest.TempPathFactory) -> dict[str, Recording]:
+    """Traces of another program by kind; not to be changed."""
+    folder = tmp_path_factory.mktemp("foreign")
+    return {
+        name: write_foreign(folder / f"{name}.mcap", compression, chunks=chunks)
+        for name, compression, chunks in (
+            ("zstd", CompressionType.ZSTD, True),
+            ("lz4", CompressionType.LZ4, True),
+            ("uncompressed", CompressionType.NONE, True),
+            ("unchunked", CompressionType.NONE, False),
+        )
+    }
