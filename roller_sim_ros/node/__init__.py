@@ -1,0 +1,1 @@
+"""The roller on the ROS 2 network; the only part that imports rclpy."""

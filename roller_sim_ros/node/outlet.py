@@ -1,0 +1,68 @@
+"""Where messages leave: each is published, and the same bytes are recorded."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Iterable
+from typing import Any
+
+from rclpy.node import Node
+from rclpy.publisher import Publisher
+
+from roller_sim_ros.node.interfaces import message_type
+from roller_sim_ros.node.qos import overridable, profile
+from roller_sim_ros.parameters import Pacing
+from roller_sim_ros.traces.recorder import Recorder
+from roller_sim_ros.wire import topics
+from roller_sim_ros.wire.messages import Message
+
+
+class Outlet:
+    """The publishers of all topics of the table; safe to use from several threads.
+
+    Parameters
+    ----------
+    node : rclpy.node.Node
+        Whose publishers they are.
+    pacing : Pacing
+        Depths depend on it.
+
+    Attributes
+    ----------
+    trace : Recorder or None
+        Where the bytes go, too; the topics are registered there by their resolved names.
+    publishers : dict
+        By the names of the table.
+    """
+
+    def __init__(self, node: Node, pacing: Pacing) -> None:
+        self.trace: Recorder | None = None
+        self.publishers: dict[str, Publisher[Any]] = {}
+        self._node = node
+        for topic in topics.TOPICS:
+            if topic.direction is topics.Direction.PUBLISHED:
+                self.publishers[topic.name] = node.create_publisher(
+                    message_type(topic.type_name),
+                    topic.name,
+                    profile(topic.qos(pacing)),
+                    qos_overriding_options=overridable(),
+                )
+        self._names = {name: item.topic_name for name, item in self.publishers.items()}
+
+    def send(self, messages: Iterable[Message]) -> None:
+        """Publish messages, in order, and hand them to the recording."""
+        for message in messages:
+            self.publishers[message.topic].publish(message.data)
+            if self.trace is not None:
+                now_ns = time.time_ns()
+                self.trace.put(self._names[message.topic], message.data, now_ns, now_ns)
+
+    def imu_wanted(self) -> bool:
+        """Return whether anyone listens to the per-sample messages."""
+        return bool(self.publishers[topics.IMU.name].get_subscription_count())
+
+    def destroy(self) -> None:
+        """Destroy the publishers."""
+        for publisher in self.publishers.values():
+            self._node.destroy_publisher(publisher)
+        self.publishers.clear()

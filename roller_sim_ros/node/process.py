@@ -1,0 +1,143 @@
+"""The process around the node: start, executor loop, signals, orderly end."""
+
+from __future__ import annotations
+
+import signal
+import sys
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
+from types import FrameType
+
+import rclpy
+from rclpy.executors import SingleThreadedExecutor
+from rclpy.lifecycle import TransitionCallbackReturn
+from rclpy.signals import SignalHandlerOptions
+
+from roller_sim_ros.errors import RollerSimError
+from roller_sim_ros.node.report import Report
+from roller_sim_ros.node.roller import Roller
+from roller_sim_ros.node.roller_node import RollerNode
+from roller_sim_ros.parameters import Value
+
+SPIN_S = 0.1
+"""How long the executor waits at most: a signal is noticed within it."""
+
+SWITCH_INTERVAL_S = 0.5e-3
+"""How long the executor's thread may keep the interpreter from the pacing thread."""
+
+_SIGNALS = (signal.SIGINT, signal.SIGTERM)
+
+
+class _Signals:
+    """SIGINT and SIGTERM: an interruption while the node starts, a request once it runs."""
+
+    def __init__(self) -> None:
+        self.stop = False
+        self.running = False
+
+    def __call__(self, _number: int, _frame: FrameType | None) -> None:
+        self.stop = True
+        if not self.running:
+            raise KeyboardInterrupt
+
+
+@contextmanager
+def _handled() -> Iterator[_Signals]:
+    signals = _Signals()
+    before = {number: signal.signal(number, signals) for number in _SIGNALS}
+    try:
+        yield signals
+    finally:
+        for number, handler in before.items():
+            signal.signal(number, handler)
+
+
+def run_node(
+    ros_arguments: Sequence[str],
+    *,
+    namespace: str = "",
+    overrides: Mapping[str, Value] | None = None,
+    on_report: Callable[[Report], None] | None = None,
+    on_end: Callable[[Roller], None] | None = None,
+) -> int:
+    """Run the node until SIGINT or SIGTERM.
+
+    Parameters
+    ----------
+    ros_arguments : sequence of str
+        ``--ros-args`` and what follows.
+    namespace : str
+        Namespace of the node.
+    overrides : mapping
+        {dotted name: SI value} that hold whatever files and arguments say.
+    on_report, on_end : callable
+        Called once a second while the node is configured, and when all is closed.
+
+    Returns
+    -------
+    int
+        0 after a signal; 1 when the node could not start, which the log says.
+
+    Raises
+    ------
+    RollerSimError
+        If an argument or a parameter is refused, or the roller fails while it runs.
+    """
+    sys.setswitchinterval(SWITCH_INTERVAL_S)
+    node: RollerNode | None = None
+    with _handled() as signals:
+        try:
+            _initialise(ros_arguments)
+            node = RollerNode(namespace=namespace, overrides=overrides)
+            node.on_report = on_report
+            if node.autostart and not _autostart(node):
+                return 1
+            signals.running = True
+            _spin(node, signals)
+        except KeyboardInterrupt:
+            pass  # while it started: there is nothing to be told
+        finally:
+            signals.running = True
+            _end(node)
+    if node is not None and on_end is not None:
+        on_end(node.roller)
+    return 0
+
+
+def _initialise(ros_arguments: Sequence[str]) -> None:
+    try:
+        # rclpy's own handlers would take the context away before the node could say that it ends.
+        rclpy.init(args=list(ros_arguments), signal_handler_options=SignalHandlerOptions.NO)
+    except Exception as error:
+        raise RollerSimError(f"ROS 2 refuses its arguments: {_first_line(error)}") from error
+
+
+def _autostart(node: RollerNode) -> bool:
+    success = TransitionCallbackReturn.SUCCESS
+    return node.trigger_configure() == success and node.trigger_activate() == success
+
+
+def _spin(node: RollerNode, signals: _Signals) -> None:
+    executor = SingleThreadedExecutor()
+    executor.add_node(node)
+    try:
+        while not signals.stop:
+            executor.spin_once(timeout_sec=SPIN_S)
+            if node.roller.failure is not None:
+                raise RollerSimError(
+                    f"the roller failed: {node.roller.failure!r}"
+                ) from node.roller.failure
+    finally:
+        executor.remove_node(node)
+
+
+def _end(node: RollerNode | None) -> None:
+    if node is not None:
+        node.shut_down()
+        node.destroy_node()
+    if rclpy.ok():
+        rclpy.shutdown()
+
+
+def _first_line(error: Exception) -> str:
+    return str(error).strip().splitlines()[0] if str(error).strip() else repr(error)

@@ -1,0 +1,171 @@
+"""The node's recording: its own topics, the commands it receives, parameter events, and others' topics."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import rclpy.subscription
+from rclpy.node import Node
+from rclpy.subscription import Subscription
+
+from roller_sim_ros.errors import RollerSimError
+from roller_sim_ros.node.interfaces import message_type
+from roller_sim_ros.node.outlet import Outlet
+from roller_sim_ros.node.qos import profile, row
+from roller_sim_ros.node.report import RecordingReport
+from roller_sim_ros.parameters import Configuration
+from roller_sim_ros.parameters import Recording as RecordingParameters
+from roller_sim_ros.traces.metadata import run_metadata
+from roller_sim_ros.traces.recorder import Recorder
+from roller_sim_ros.traces.registration import register
+from roller_sim_ros.wire import topics
+from roller_sim_ros.wire.qos import Qos
+
+DEPTH = 1000
+"""Messages of others' topics that may wait for the executor."""
+
+# Humble's rclpy does not tell a callback when its message was sent.
+_HAS_INFO = hasattr(rclpy.subscription, "MessageInfo")
+
+Receiver = Callable[..., None]
+
+
+def receiver(handle: Callable[[bytes, int, int], None]) -> Receiver:
+    """Return a callback for a raw subscription that calls `handle` with bytes, receive and publish time."""
+
+    def with_info(data: bytes, info: dict[str, Any]) -> None:
+        now_ns = time.time_ns()
+        handle(data, info["received_timestamp"] or now_ns, info["source_timestamp"] or now_ns)
+
+    def without_info(data: bytes) -> None:
+        now_ns = time.time_ns()
+        handle(data, now_ns, now_ns)
+
+    return with_info if _HAS_INFO else without_info
+
+
+class Recording:
+    """A trace of the node.
+
+    Parameters
+    ----------
+    node : rclpy.node.Node
+        The node.
+    outlet : Outlet
+        Its topics are registered, and it hands its bytes over from now on.
+    command_topic : str
+        Resolved name of the commands' topic.
+    configuration : Configuration
+        Goes into the trace as the run's parameters.
+
+    Attributes
+    ----------
+    problems : dict
+        Topics of others that cannot be recorded, and why.
+    awaited : list of str
+        Topics of others that nobody publishes yet.
+
+    Raises
+    ------
+    TraceError
+        If the file cannot be made.
+    """
+
+    def __init__(
+        self, node: Node, outlet: Outlet, command_topic: str, configuration: Configuration
+    ) -> None:
+        self.parameters: RecordingParameters = configuration.recording
+        self.problems: dict[str, str] = {}
+        self._node = node
+        self._subscriptions: list[Subscription[Any]] = []
+        self.trace = Recorder(
+            Path(self.parameters.path),
+            run_metadata(configuration, node.get_clock().now().nanoseconds),
+            flush_period_s=self.parameters.flush_period_s,
+        )
+        self._commands = command_topic
+        self.attach(outlet)
+        register(
+            self.trace,
+            command_topic,
+            topics.EXCITER_COMMAND.type_name,
+            topics.EXCITER_COMMAND.qos(configuration.pacing),
+        )
+        events = topics.PARAMETER_EVENTS
+        self._record(events.name, events.type_name, events.qos(configuration.pacing))
+        names = [name.strip() for name in self.parameters.topics.split(",") if name.strip()]
+        own = {publisher.topic_name for publisher in outlet.publishers.values()}
+        own |= {command_topic, events.name}
+        resolved = dict.fromkeys(node.resolve_topic_name(name) for name in names)
+        self.awaited = [name for name in resolved if name not in own]
+        self.look_for_topics()
+
+    def attach(self, outlet: Outlet) -> None:
+        """Let an outlet hand its bytes over."""
+        for topic in topics.TOPICS:
+            publisher = outlet.publishers.get(topic.name)
+            if publisher is not None:
+                qos = row(publisher.qos_profile)
+                register(self.trace, publisher.topic_name, topic.type_name, qos)
+        outlet.trace = self.trace
+
+    def put_command(self, data: bytes, received_ns: int, published_ns: int) -> None:
+        """Record a command as it came."""
+        self.trace.put(self._commands, data, received_ns, published_ns)
+
+    def look_for_topics(self) -> None:
+        """Subscribe to those of the others' topics that someone publishes by now."""
+        for name in list(self.awaited):
+            publishers = self._node.get_publishers_info_by_topic(name)
+            if not publishers:
+                continue
+            self.awaited.remove(name)
+            qos = _for_all([row(item.qos_profile) for item in publishers])
+            try:
+                self._record(name, publishers[0].topic_type, qos)
+            except RollerSimError as error:
+                self.problems[name] = str(error)
+                self._node.get_logger().error(f"{name} is not recorded: {error}")
+
+    def report(self) -> RecordingReport:
+        """Return how the recording is doing."""
+        return RecordingReport(
+            path=self.parameters.path,
+            status=self.trace.status(),
+            problems=dict(self.problems),
+            awaited=tuple(self.awaited),
+        )
+
+    def close(self, timeout_s: float) -> None:
+        """Finish the file, within that time or later by itself."""
+        for subscription in self._subscriptions:
+            self._node.destroy_subscription(subscription)
+        self._subscriptions.clear()
+        self.trace.close(timeout_s)
+
+    def _record(self, name: str, type_name: str, qos: Qos) -> None:
+        message_class = message_type(type_name)
+        register(self.trace, name, type_name, qos)
+
+        def put(data: bytes, received_ns: int, published_ns: int) -> None:
+            self.trace.put(name, data, received_ns, published_ns)
+
+        self._subscriptions.append(
+            self._node.create_subscription(
+                message_class, name, receiver(put), profile(qos), raw=True
+            )
+        )
+
+
+def _for_all(offered: list[Qos]) -> Qos:
+    """Return the strongest quality of service that all of the offered ones match; depths are not known."""
+    reliable = all(item.reliability == "reliable" for item in offered)
+    lasting = all(item.durability == "transient_local" for item in offered)
+    return Qos(
+        reliability="reliable" if reliable else "best_effort",
+        durability="transient_local" if lasting else "volatile",
+        depth=DEPTH,
+    )

@@ -1,0 +1,159 @@
+"""The lifecycle node: transitions, parameters, and what it does once a second."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable, Mapping
+from typing import Any
+
+from rcl_interfaces.msg import SetParametersResult
+from rclpy.clock import Clock
+from rclpy.clock_type import ClockType
+from rclpy.lifecycle import LifecycleNode, LifecycleState, TransitionCallbackReturn
+from rclpy.parameter import Parameter
+from rclpy.timer import Timer
+
+from roller_sim_ros.errors import RollerSimError
+from roller_sim_ros.node import parameters
+from roller_sim_ros.node.command_input import COMMANDED
+from roller_sim_ros.node.report import Report
+from roller_sim_ros.node.roller import Roller
+from roller_sim_ros.parameters import PARAMETERS, Value
+
+NAME = "roller_sim"
+TICK_S = 0.1
+REPORT_S = 1.0
+
+
+class RollerNode(LifecycleNode):
+    """The roller as a ROS 2 node.
+
+    Configured: topics, recording and compiled kernels are there. Active: the roller runs, from standstill.
+
+    Parameters
+    ----------
+    namespace : str
+        Namespace, unless the command line remaps it.
+    overrides : mapping
+        {dotted name: SI value}, stronger than those of the command line and of files.
+
+    Attributes
+    ----------
+    roller : Roller
+        What the transitions act on.
+    on_report : callable or None
+        Called once a second with the node's `Report`.
+
+    Raises
+    ------
+    ParameterError
+        If a parameter is unknown or its value refused.
+    """
+
+    def __init__(
+        self, *, namespace: str = "", overrides: Mapping[str, Value] | None = None
+    ) -> None:
+        super().__init__(
+            NAME,
+            namespace=namespace,
+            parameter_overrides=parameters.as_overrides(dict(overrides or {})),
+            automatically_declare_parameters_from_overrides=True,
+        )
+        self.roller = Roller(self, parameters.declare(self))
+        self.on_report: Callable[[Report], None] | None = None
+        self._tick_timer: Timer | None = None
+        self._next_report = 0.0
+        self._echoing = False
+        self.add_on_set_parameters_callback(self._on_set_parameters)
+        if hasattr(self, "add_pre_set_parameters_callback"):  # since Iron
+            self.add_pre_set_parameters_callback(parameters.floats_for_integers)
+
+    @property
+    def autostart(self) -> bool:
+        """Whether the node is to be configured and activated when it starts."""
+        return bool(self.get_parameter(parameters.AUTOSTART).value)
+
+    def shut_down(self) -> None:
+        """Stop and close everything from whatever state; the node is of no use afterwards."""
+        self.trigger_shutdown()
+        # A transition that was interrupted leaves the state machine where it cannot shut down.
+        self._release()
+
+    def on_configure(self, _state: LifecycleState) -> TransitionCallbackReturn:
+        """Compile, open the topics and the recording."""
+        return self._transition(self._configure)
+
+    def on_activate(self, _state: LifecycleState) -> TransitionCallbackReturn:
+        """Start the roller from standstill."""
+        return self._transition(self.roller.start)
+
+    def on_deactivate(self, _state: LifecycleState) -> TransitionCallbackReturn:
+        """Stop the roller; topics and recording stay open."""
+        return self._transition(self.roller.stop)
+
+    def on_cleanup(self, _state: LifecycleState) -> TransitionCallbackReturn:
+        """Close the recording and the topics."""
+        return self._transition(self._release)
+
+    def on_shutdown(self, _state: LifecycleState) -> TransitionCallbackReturn:
+        """Stop the roller, close the recording and the topics."""
+        return self._transition(self._release)
+
+    def on_error(self, _state: LifecycleState) -> TransitionCallbackReturn:
+        """Go back to unconfigured after a transition failed in an unforeseen way."""
+        return self._transition(self._release)
+
+    def _transition(self, act: Callable[[], None]) -> TransitionCallbackReturn:
+        try:
+            act()
+        except RollerSimError as error:
+            self.get_logger().error(str(error))
+            return TransitionCallbackReturn.FAILURE
+        except Exception as error:
+            # rclpy turns it into ERROR and says nothing.
+            self.get_logger().fatal(f"defect: {error!r}")
+            raise
+        return TransitionCallbackReturn.SUCCESS
+
+    def _configure(self) -> None:
+        self.roller.prepare()
+        self._next_report = time.monotonic() + REPORT_S
+        steady = Clock(clock_type=ClockType.STEADY_TIME)
+        self._tick_timer = self.create_timer(TICK_S, self._tick, clock=steady)
+
+    def _release(self) -> None:
+        if self._tick_timer is not None:
+            self.destroy_timer(self._tick_timer)
+            self._tick_timer = None
+        self.roller.release()
+
+    def _on_set_parameters(self, items: list[Parameter[Any]]) -> SetParametersResult:
+        values = {item.name: item.value for item in items if item.name in PARAMETERS}
+        try:
+            if values and not self._echoing:
+                self.roller.change(values)
+        except RollerSimError as error:
+            return SetParametersResult(successful=False, reason=str(error))
+        return SetParametersResult(successful=True)
+
+    def _tick(self) -> None:
+        self.roller.watch()
+        now = time.monotonic()
+        if now >= self._next_report:
+            self._next_report = now + REPORT_S - TICK_S / 2
+            self._show_commanded()
+            report = self.roller.report()
+            if self.on_report is not None:
+                self.on_report(report)
+
+    def _show_commanded(self) -> None:
+        """Let the parameters say what was commanded by topic."""
+        flat = self.roller.configuration.flat()
+        told = [Parameter(name, value=flat[name]) for name in COMMANDED]
+        changed = [item for item in told if item.value != self.get_parameter(item.name).value]
+        if changed:
+            self._echoing = True
+            try:
+                self.set_parameters_atomically(changed)
+            finally:
+                self._echoing = False
