@@ -42,7 +42,6 @@ class ExactGround(Ground):
         unit = self.strip.time_unit_s
         alpha, nu = self.strip.aspect_ratio, soil.poisson_ratio
         own_memory_s = memory(alpha, nu) * unit
-        blend_s = own_memory_s
         free_s = max(own_memory_s, self._old_waves_s)
         if self._soil != soil:
             free_s = max(free_s, (self._memory + 1) * self._old_step_s)
@@ -52,34 +51,33 @@ class ExactGround(Ground):
         self._answers = tuple(
             compliance * answer for answer in _answers(alpha, nu, unit, h, count + 1)
         )
-        self._resample(h, count, blend_s)
+        self._resample(h, count)
         self._old_step_s = h
         self._old_compliance = compliance
         self._memory = count
 
-    def _resample(self, h: float, count: int, blend_s: float) -> None:
-        """Lay the free motion on the new sample times, towards the new soil's rest under the present force.
+    def _resample(self, h: float, count: int) -> None:
+        """Lay the free motion on the new sample times, about the new soil's rest under the present force.
 
-        The waves under way go on as they were; the difference of the rests is made up smoothly within one memory, so
-        that neither the surface nor its velocity steps.
+        The waves under way go on as they were. The difference of the rests goes into the datum, so that neither the
+        drum nor the force notices that the surface it rests on is another one.
         """
-        force = self.state[at.FORCE]
+        state = self.state
+        force = state[at.FORCE]
         rest = self.strip.static_compliance * force
         old_rest = self._old_compliance * force
-        times = h * np.arange(count + 1, dtype=np.float64)
         length = count + 1 + self._samples
         free, free_rate = np.full(length, rest), np.zeros(length)
         if self._old_step_s:
+            times = h * np.arange(count + 1, dtype=np.float64)
             old = slice(0, self._memory + 1)
             waves, rate = _hermite(
                 times, self._old_step_s, self._free[old] - old_rest, self._free_rate[old]
             )
             free[: count + 1] += waves
             free_rate[: count + 1] += rate
-        if rest != old_rest:
-            u = np.minimum(times / blend_s, 1.0)
-            free[: count + 1] += (old_rest - rest) * (1.0 - u * u * (3.0 - 2.0 * u))
-            free_rate[: count + 1] -= (old_rest - rest) * 6.0 * u * (1.0 - u) / blend_s
+        state[at.SURFACE] += rest - old_rest
+        state[at.DATUM] -= rest - old_rest
         self._free, self._free_rate = free, free_rate
 
     def advance(self, first: int, samples: int) -> Array:

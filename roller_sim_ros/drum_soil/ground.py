@@ -106,6 +106,11 @@ class Ground(ABC):
         self._cosine = np.zeros(samples_per_revolution + 1)
         self._start()
 
+    @property
+    def unsettled_steps(self) -> int:
+        """Steps whose phase changes did not settle; 0 in all sound runs."""
+        return int(self.state[at.UNSETTLED_STEPS])
+
     def _start(self) -> None:
         load = self._machine.static_load_n
         self.state[at.FORCE] = load

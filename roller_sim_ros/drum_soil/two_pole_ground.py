@@ -8,6 +8,7 @@ from roller_sim_ros.drum_soil import state as at
 from roller_sim_ros.drum_soil import two_pole_kernel
 from roller_sim_ros.drum_soil.finite_memory import BENDS_SHAPE
 from roller_sim_ros.drum_soil.ground import Array, Ground
+from roller_sim_ros.drum_soil.two_pole import TwoPole, joint_force
 from roller_sim_ros.exciter import Revolution
 from roller_sim_ros.half_space.two_pole import two_pole_frequency
 from roller_sim_ros.parameters import Soil
@@ -19,9 +20,10 @@ class TwoPoleGround(Ground):
     def _start(self) -> None:
         super()._start()
         self._bends = np.zeros(BENDS_SHAPE)
+        self._two_pole = self._constants_on(self._soil)
 
-    def _change(self, soil: Soil, revolution: Revolution) -> None:
-        constants, state = self._constants, self.state
+    def _constants_on(self, soil: Soil) -> TwoPole:
+        """Return ω0, Q, H0 on a soil."""
         omega = two_pole_frequency(
             soil.shear_modulus_pa,
             soil.density_kg_m3,
@@ -29,19 +31,24 @@ class TwoPoleGround(Ground):
             self.strip.half_length_m,
             self._half_space.frequency_factor,
         )
+        return omega, self._half_space.quality_factor, self.strip.static_compliance
+
+    def _change(self, soil: Soil, revolution: Revolution) -> None:
+        constants, state = self._constants, self.state
+        before, self._two_pole = self._two_pole, self._constants_on(soil)
+        omega, quality, compliance = self._two_pole
         constants[at.NATURAL_FREQUENCY] = omega
-        constants[at.QUALITY] = self._half_space.quality_factor
-        if state[at.PHASE] != at.UNLOADING:
+        constants[at.QUALITY] = quality
+        if soil == self._soil or state[at.PHASE] == at.AIR:
             return
-        # In unloading the force follows from the surface's state. So that it stays, the surface takes the depth
-        # that goes with it on the new soil, and the datum makes up for the difference.
+        # In contact the force with which drum and surface move alike follows from the surface's state. So that it
+        # stays, the surface takes the depth that goes with it on the new soil, and the datum makes up for that.
         thrust = revolution.start_acceleration * self._direction.vertical_sine * self._sine[0]
         mass, load = self._machine.drum_mass_kg, self._machine.static_load_n
-        sinking = (load - state[at.FORCE]) / mass - thrust
-        damping = omega / self._half_space.quality_factor
-        surface = self.strip.static_compliance * state[at.FORCE] - (
-            sinking + damping * state[at.SURFACE_VELOCITY]
-        ) / (omega * omega)
+        velocity = state[at.SURFACE_VELOCITY]
+        force = joint_force(state[at.SURFACE], velocity, thrust, before, (mass, load, 0.0))
+        sinking = (load - force) / mass - thrust
+        surface = compliance * force - (sinking + omega / quality * velocity) / (omega * omega)
         state[at.DATUM] += state[at.SURFACE] - surface
         state[at.SURFACE] = surface
 

@@ -75,7 +75,7 @@ class Session:
     @property
     def unsettled_steps(self) -> int:
         """Steps whose phase changes did not settle; 0 in all sound runs."""
-        return int(self._ground.state[at.UNSETTLED_STEPS])
+        return self._ground.unsettled_steps
 
     def command_exciter(self, *, vibrate: bool, frequency_hz: float, amplitude_m: float) -> None:
         """Command the exciter; takes effect at the next multiple of 128 samples.
