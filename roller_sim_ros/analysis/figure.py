@@ -10,7 +10,6 @@ from matplotlib.axes import Axes
 from matplotlib.patches import Patch
 from numpy.typing import NDArray
 
-from roller_sim_ros.analysis.analyse import Analysis
 from roller_sim_ros.analysis.excerpt import Excerpt
 from roller_sim_ros.analysis.panels import (
     BLUE,
@@ -21,6 +20,7 @@ from roller_sim_ros.analysis.panels import (
     drawn_figure,
     say_nothing,
 )
+from roller_sim_ros.analysis.result import Analysis
 from roller_sim_ros.meters import Mode
 from roller_sim_ros.parameters import GRAVITY_M_S2
 

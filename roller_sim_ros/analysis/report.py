@@ -10,9 +10,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from roller_sim_ros.analysis.analyse import Analysis
 from roller_sim_ros.analysis.comparison import Comparison
 from roller_sim_ros.analysis.excerpt import Excerpt
+from roller_sim_ros.analysis.result import Analysis
 from roller_sim_ros.analysis.samples import NANOSECONDS
 from roller_sim_ros.meters import Mode, Status
 from roller_sim_ros.meters.harmonics import order_amplitudes
@@ -59,7 +59,7 @@ def as_object(analysis: Analysis) -> dict[str, Any]:
         },
         "cmv": _range(history.floats("cmv")),
         "rmv": _range(history.floats("rmv")),
-        "periods": _counts(history.integers("period")[known]),
+        "periods": _periods(history.integers("period")[known], history.integers("mode")[known]),
         "modes": {
             Mode(int(number)).label: count
             for number, count in _counts(history.integers("mode")[known]).items()
@@ -118,6 +118,17 @@ def _range(values: NDArray[np.float64]) -> dict[str, float] | None:
 def _counts(values: NDArray[np.int64]) -> dict[str, int]:
     numbers, counts = np.unique(values, return_counts=True)
     return {str(int(number)): int(count) for number, count in zip(numbers, counts, strict=True)}
+
+
+def _periods(periods: NDArray[np.int64], modes: NDArray[np.int64]) -> dict[str, int]:
+    """Return how often each period was found; 0 means none, or unknown where the mode is unknown too."""
+    unknown = (periods == 0) & (modes == Mode.UNKNOWN)
+    counts = _counts(periods[~unknown])
+    if "0" in counts:
+        counts["none"] = counts.pop("0")
+    if np.any(unknown):
+        counts["unknown"] = int(np.count_nonzero(unknown))
+    return counts
 
 
 def _compared(comparison: Comparison | None) -> dict[str, Any] | None:
@@ -217,8 +228,7 @@ def _shares(counts: Mapping[str, int], total: int) -> str:
     if not total:
         return "unknown"
     ordered = sorted(counts.items(), key=lambda item: -item[1])
-    names = {"0": "none"}
-    return ", ".join(f"{names.get(name, name)} {count / total:.0%}" for name, count in ordered)
+    return ", ".join(f"{name} {count / total:.0%}" for name, count in ordered)
 
 
 def _settled_text(settled: Mapping[str, Any]) -> str:

@@ -49,8 +49,9 @@ def main(argv: list[str] | None = None) -> int:
     """
     arguments = _parser().parse_args(argv)
     # What takes long to import comes after --help.
-    from roller_sim_ros.analysis.analyse import Options, analyse
+    from roller_sim_ros.analysis.analyse import analyse
     from roller_sim_ros.analysis.report import as_object, as_table
+    from roller_sim_ros.analysis.result import Options
 
     options = Options(
         topic=arguments.topic,

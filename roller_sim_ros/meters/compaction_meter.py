@@ -76,10 +76,10 @@ class MeterValue:
 class CompactionMeter:
     """Streaming meter; `feed` it blocks, it returns a value for each completed revolution.
 
-    A value comes every N samples also while the exciter stands or runs below the sampling floor,
-    where N samples are no revolution: with NaN and the status STANDING or WINDOW_FILLING. A
-    revolution of which samples are missing gives no value; the window begins anew after it, with
-    GAP until it is full.
+    A value comes every N samples also while the exciter stands or runs below the sampling floor, where
+    N samples are no revolution: with NaN and the status STANDING or WINDOW_FILLING. A revolution of which
+    samples are missing gives no value; the window begins anew after it, with GAP until it is full. A sample
+    that is no finite number counts as missing, except that its revolution gives a value, NaN with GAP.
 
     Parameters
     ----------
@@ -155,7 +155,10 @@ class CompactionMeter:
         return values
 
     def _value(self, revolution: Revolution) -> MeterValue:
-        if revolution.synchronous:
+        if not np.isfinite(revolution.samples).all():
+            self._clear()
+            self._gap = True
+        elif revolution.synchronous:
             self._push(revolution)
         else:
             self._clear()

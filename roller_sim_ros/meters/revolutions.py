@@ -119,6 +119,8 @@ class RevolutionCollector:
         found: list[Revolution | Loss] = []
         start = first_sample
         end = first_sample + samples.shape[1]
+        if end == start:
+            return found
         if self._expected is None:
             self._whole = False
         elif start > self._expected or start < self._expected - self._reach:

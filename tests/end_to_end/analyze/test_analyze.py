@@ -256,9 +256,14 @@ def test_window_of_the_recorded_meter_is_taken_over(
         value.window_revolutions = 4
         short.append(item._replace(data=encode(value, item.type_name)))
     folder = bag(of(run, topics.ACCELERATION) + short)
-    assert report(capsys, folder)["window_revolutions"] == 4
+    taken_over = report(capsys, folder)
+    assert (taken_over["window_revolutions"], taken_over["warnings"]) == (4, [])
     found = report(capsys, folder, "--window-revolutions", 8)
     assert (found["window_revolutions"], found["values_known"]) == (8, REVOLUTIONS - 7)
+    assert "window of 4 revolutions, not of 8" in found["warnings"][0]
+    # 8 revolutions tell periods up to 4; where they find none, that is no statement.
+    assert "unknown" in found["periods"]
+    assert "none" not in found["periods"]
 
 
 def test_other_number_of_samples_per_revolution_is_noticed(

@@ -143,6 +143,26 @@ def test_late_block_does_not_heal_a_gap_that_was_passed() -> None:
     assert swapped[-1].status is Status.NONE
 
 
+@pytest.mark.parametrize("value", [math.nan, math.inf, -math.inf])
+def test_samples_that_are_no_numbers_are_a_gap(value: float) -> None:
+    samples = np.sin(np.arange(12 * N) * STEP)
+    samples[5 * N + 7] = value
+    values = feed(CompactionMeter(4), blocks(samples))
+    gap = Status.GAP | Status.WINDOW_FILLING
+    assert [found.status for found in values[4:]] == [0, gap, gap, gap, gap, 0, 0, 0]
+    assert [math.isnan(found.cmv) for found in values[4:9]] == [False, True, True, True, True]
+    assert values[-1].cmv == pytest.approx(0.0, abs=1e-4)
+
+
+def test_blocks_without_samples_are_nothing() -> None:
+    meter = CompactionMeter(2)
+    empty = np.zeros(0, dtype=np.float32)
+    assert feed(meter, [(5000, empty)]) == []
+    values = feed(meter, [*blocks(np.sin(np.arange(2 * N) * STEP)), (9 * N, empty)])
+    assert values[-1].status is Status.NONE
+    assert feed(meter, blocks(np.sin(np.arange(N) * STEP), first=2 * N))[0].status is Status.NONE
+
+
 def test_restarted_sender_is_followed_at_once() -> None:
     meter = CompactionMeter(4)
     samples = np.sin(np.arange(8 * N) * STEP)
