@@ -6,11 +6,13 @@ parameter ``half_space.model``). The phases themselves are in `contact`, one par
 
 from roller_sim_ros.drum_soil.exact_ground import ExactGround
 from roller_sim_ros.drum_soil.ground import Ground, LoadedStrip, loaded_strip
+from roller_sim_ros.drum_soil.rational_ground import RationalGround
 from roller_sim_ros.drum_soil.state import AIR, LOADING, UNLOADING
 from roller_sim_ros.drum_soil.two_pole_ground import TwoPoleGround
 
 GROUNDS: dict[str, type[Ground]] = {
     "exact": ExactGround,
+    "rational": RationalGround,
     "two-pole": TwoPoleGround,
 }
 
@@ -21,6 +23,7 @@ __all__ = [
     "UNLOADING",
     "ExactGround",
     "Ground",
+    "RationalGround",
     "LoadedStrip",
     "TwoPoleGround",
     "loaded_strip",

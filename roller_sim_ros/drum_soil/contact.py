@@ -1,6 +1,6 @@
 """One step of drum and soil through the phases of Figure 13, each change located inside the step.
 
-The same for all half spaces; what they do within a part of the step comes from `finite_memory` and `two_pole`.
+The same for all half spaces; what they do within a part of the step comes from `finite_memory`, `two_pole` and `modes`.
 Loading ends when the drum no longer sinks into the soil (d' = e'), reloading begins when the force rises again, the
 drum lifts off when the force is zero and meets the soil at zero gap; the soil is renewed at the drum's apex.
 """
@@ -18,12 +18,14 @@ from roller_sim_ros.drum_soil.finite_memory import (
     answer_within,
     known_surface,
 )
+from roller_sim_ros.drum_soil.modes import Modes, answers_and_motion, carry
 from roller_sim_ros.drum_soil.parts import Constants, Pair, Result, solve_part
 from roller_sim_ros.drum_soil.renewal import renewed
 from roller_sim_ros.drum_soil.state import (
     AIR,
     LOADING,
     MAX_SPLITS,
+    MODES,
     STILL_SLOPE,
     STILL_VELOCITY,
     TWO_POLE,
@@ -77,6 +79,7 @@ def _part(
     free: Free,
     answer_h: Pair,
     two_pole: tuple[float, float, float],
+    modes: Modes,
     bends: Array,
     count: int,
 ) -> Result:
@@ -103,6 +106,9 @@ def _part(
         answer_x, motion_x = two_pole_answer(x, two_pole)
         known_y = two_pole_free(e, w, force, motion_y, two_pole)
         known_x = two_pole_free(e, w, force, motion_x, two_pole)
+        slope_before = 0.0
+    elif half_space == MODES:
+        answer_y, answer_x, known_y, known_x = answers_and_motion(x, force, two_pole[2], modes)
         slope_before = 0.0
     else:
         answer_y = answer_within(y, h, answer_h[0], answer_h[1])
@@ -157,6 +163,7 @@ def _locate(
     free: Free,
     answer_h: Pair,
     two_pole: tuple[float, float, float],
+    modes: Modes,
     bends: Array,
     count: int,
 ) -> float:
@@ -185,6 +192,7 @@ def _locate(
             free,
             answer_h,
             two_pole,
+            modes,
             bends,
             count,
         )
@@ -215,6 +223,7 @@ def split_step(
     free: Free,
     answer_h: Pair,
     two_pole: tuple[float, float, float],
+    modes: Modes,
     bends: Array,
 ) -> tuple[int, State, int, int]:
     """Take one step in which phases change, each change located inside the step.
@@ -230,11 +239,13 @@ def split_step(
     exciter
         ω, phase at the sample, vertical exciter acceleration and its rate there.
     half_space
-        FINITE_MEMORY or TWO_POLE.
+        FINITE_MEMORY, TWO_POLE or MODES.
     free, answer_h
         Finite memory: from `free_motion`, and R and s at h, H0 included.
     two_pole
-        Two-pole: ω0, Q, H0.
+        Two-pole: ω0, Q, H0; modes: H0 as the last.
+    modes : ndarray, shape (ROWS, m)
+        Modes: see `modes`; their distance from rest is moved on by the step.
     bends : ndarray, shape BENDS_SHAPE
         Receives where the force bends, from a constant one before the step to a constant one after it.
 
@@ -274,6 +285,7 @@ def split_step(
             free,
             answer_h,
             two_pole,
+            modes,
             bends,
             count,
         )
@@ -310,6 +322,7 @@ def split_step(
                     free,
                     answer_h,
                     two_pole,
+                    modes,
                     bends,
                     count,
                 )
@@ -334,6 +347,7 @@ def split_step(
                 free,
                 answer_h,
                 two_pole,
+                modes,
                 bends,
                 count,
             )
@@ -357,11 +371,14 @@ def split_step(
                     free,
                     answer_h,
                     two_pole,
+                    modes,
                     bends,
                     count,
                 )
             slope_start, slope_end, d, v, force_1, e, w = result
             curvature = (slope_end - slope_start) / length
+            if half_space == MODES:
+                carry(length, slope_start, curvature, modes)
             bends[count, BEND_SLOPE] = slope_start - slope_before
             bends[count, BEND_CURVATURE] += curvature
             count += 1

@@ -10,7 +10,7 @@ import numpy as np
 from roller_sim_ros.drum_soil import exact_kernel
 from roller_sim_ros.drum_soil import state as at
 from roller_sim_ros.drum_soil.finite_memory import BENDS_SHAPE
-from roller_sim_ros.drum_soil.ground import Array, Ground
+from roller_sim_ros.drum_soil.ground import NO_MODES, Array, Ground
 from roller_sim_ros.exciter import Revolution
 from roller_sim_ros.half_space.transient import memory, step_and_ramp
 from roller_sim_ros.parameters import Soil
@@ -101,6 +101,7 @@ class ExactGround(Ground):
             bulge_rate,
             self._free,
             self._free_rate,
+            NO_MODES,
             self._bends,
             out,
         )

@@ -16,6 +16,7 @@ from roller_sim_ros.drum_soil.finite_memory import (
     Array,
     free_motion,
 )
+from roller_sim_ros.drum_soil.modes import Modes
 from roller_sim_ros.drum_soil.parts import solve_part
 from roller_sim_ros.drum_soil.renewal import renewed
 from roller_sim_ros.drum_soil.state import STILL_SLOPE, STILL_VELOCITY
@@ -78,6 +79,7 @@ def advance(
     bulge_rate: Array,
     free: Array,
     free_rate: Array,
+    modes: Modes,
     bends: Array,
     out: Array,
 ) -> None:
@@ -103,6 +105,8 @@ def advance(
         Rate of what the bulge τ (h − τ) of the force adds; its value is chord_rate · h³/6.
     free, free_rate : ndarray, shape (memory + 1 + samples per revolution,)
         Coming free motion of the surface, from the present sample on; moved down on return.
+    modes : ndarray, shape (ROWS, 0)
+        None: this half space has no modes.
     bends : ndarray, shape BENDS_SHAPE
         Scratch.
     out : ndarray, shape (OUT_ROWS, samples)
@@ -190,6 +194,7 @@ def advance(
                 motion,
                 (ramp[1], step[1]),
                 (0.0, 0.0, 0.0),
+                modes,
                 bends,
             )
             d, v, force, e, w, q, datum = new

@@ -10,11 +10,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from roller_sim_ros.drum_soil import state as at
+from roller_sim_ros.drum_soil.modes import ROWS
 from roller_sim_ros.exciter import DIRECTIONS, Direction, Revolution
 from roller_sim_ros.half_space.static import static_compliance
 from roller_sim_ros.parameters import Exciter, HalfSpace, Machine, Soil
 
 Array = NDArray[np.float64]
+
+NO_MODES = np.zeros((ROWS, 0), dtype=np.complex128)
+"""For kernels whose half space has no modes."""
 
 
 @dataclass(frozen=True)

@@ -71,6 +71,7 @@ MAX_SPLITS = 24
 # Kinds of half space that `contact` knows.
 FINITE_MEMORY = 0
 TWO_POLE = 1
+MODES = 2
 
 # Below these a change of phase is rounding noise of a roller at rest.
 STILL_VELOCITY = 1e-12

@@ -7,7 +7,7 @@ import numpy as np
 from roller_sim_ros.drum_soil import state as at
 from roller_sim_ros.drum_soil import two_pole_kernel
 from roller_sim_ros.drum_soil.finite_memory import BENDS_SHAPE
-from roller_sim_ros.drum_soil.ground import Array, Ground
+from roller_sim_ros.drum_soil.ground import NO_MODES, Array, Ground
 from roller_sim_ros.drum_soil.two_pole import TwoPole, joint_force
 from roller_sim_ros.exciter import Revolution
 from roller_sim_ros.half_space.two_pole import two_pole_frequency
@@ -63,6 +63,7 @@ class TwoPoleGround(Ground):
             self._sine,
             self._cosine,
             self._angle,
+            NO_MODES,
             self._bends,
             out,
         )

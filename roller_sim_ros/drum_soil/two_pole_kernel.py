@@ -5,6 +5,7 @@ from __future__ import annotations
 from roller_sim_ros.drum_soil import state as at
 from roller_sim_ros.drum_soil.contact import split_step
 from roller_sim_ros.drum_soil.finite_memory import Array
+from roller_sim_ros.drum_soil.modes import Modes
 from roller_sim_ros.drum_soil.parts import solve_part
 from roller_sim_ros.drum_soil.renewal import renewed
 from roller_sim_ros.drum_soil.state import STILL_SLOPE, STILL_VELOCITY
@@ -30,6 +31,7 @@ def advance(
     sine: Array,
     cosine: Array,
     phase_angle: Array,
+    modes: Modes,
     bends: Array,
     out: Array,
 ) -> None:
@@ -45,6 +47,8 @@ def advance(
         Of the revolution.
     sine, cosine, phase_angle : ndarray, shape (samples per revolution + 1,)
         Of the eccentric at the revolution's samples.
+    modes : ndarray, shape (ROWS, 0)
+        None: this half space has no modes.
     bends : ndarray, shape BENDS_SHAPE
         Scratch.
     out : ndarray, shape (OUT_ROWS, samples)
@@ -134,6 +138,7 @@ def advance(
                 (0.0, 0.0, 0.0, 0.0, 0.0, 0.0),
                 (0.0, 0.0),
                 two_pole,
+                modes,
                 bends,
             )
             d, v, force, e, w, q, datum = new

@@ -17,8 +17,9 @@ class HalfSpace(ParameterGroup):
     model: str = parameter(
         "exact",
         "",
-        "exact: the undamped half space itself; two-pole: the paper's second-order approximation",
-        choices=("exact", "two-pole"),
+        "exact: the undamped half space itself; rational: poles and zeros fitted to it; two-pole: the paper's "
+        "second-order approximation",
+        choices=("exact", "rational", "two-pole"),
         flag="--half-space",
     )
     area_factor: float = parameter(
@@ -51,4 +52,12 @@ class HalfSpace(ParameterGroup):
         minimum=0.2,
         maximum=20.0,
         flag="--frequency-factor",
+    )
+    order: int = parameter(
+        4,
+        "",
+        "rational only: number of poles of the fitted transfer function",
+        minimum=1,
+        maximum=8,
+        flag="--order",
     )

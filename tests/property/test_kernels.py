@@ -17,7 +17,7 @@ from roller_sim_ros.jit import DISABLE_VARIABLE
 from roller_sim_ros.parameters import Configuration
 from roller_sim_ros.session import Block, Session
 
-MODELS = ("exact", "two-pole")
+MODELS = ("exact", "rational", "two-pole")
 FREQUENCIES = st.floats(0.0, 60.0)
 AMPLITUDES = st.floats(0.0, 4e-3)
 SHEAR_MODULI = st.floats(3e6, 5e8)
