@@ -13,7 +13,9 @@ import pytest
 from rosbags.rosbag2 import StoragePlugin
 
 from roller_sim_ros.commands.analyze import main
+from roller_sim_ros.emulation import Emulator
 from roller_sim_ros.errors import RollerSimError
+from roller_sim_ros.parameters import Configuration
 from roller_sim_ros.wire import topics
 from roller_sim_ros.wire.messages import Message
 from roller_sim_ros.wire.types import decode, encode, message_class
@@ -92,6 +94,28 @@ def test_settled_values_follow_from_the_samples(
     force = np.concatenate([piece.soil_force for piece in truth])[-64 * N :]
     assert settled["soil_force_max_n"] == pytest.approx(force.max())
     assert settled["air_fraction"] == pytest.approx(np.mean(force == 0.0), abs=0.01)
+
+
+def test_settled_revolutions_are_of_one_frequency(
+    bag: Bag, capsys: pytest.CaptureFixture[str]
+) -> None:
+    emulator = Emulator(Configuration(), start_ns=0)
+    messages = []
+    for block in range(8 * 140):
+        if block == 8 * 99:
+            emulator.command(vibrate=True, frequency_hz=30.0, amplitude_m=1.6e-3)
+        messages += emulator.advance(N // 8)
+    found = report(capsys, bag(messages))
+    frequencies = [
+        decode(item.data, item.type_name).excitation_frequency
+        for item in of(messages, topics.ACCELERATION)
+    ]
+    settled = found["settled"]
+    assert settled["excitation_hz"] == 30.0
+    assert 20 < settled["revolutions"] <= frequencies.count(30.0) // 8
+    assert found["excitation_hz"]["min"] == 28.0
+    assert found["status"]["frequency changing"] >= 16
+    assert found["recorded_meter"]["max_difference"]["cmv"] == 0.0
 
 
 def test_table_says_the_same_in_words(bag: Bag, capsys: pytest.CaptureFixture[str]) -> None:

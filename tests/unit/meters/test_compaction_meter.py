@@ -134,6 +134,16 @@ def test_gap_begins_a_new_window_and_is_said_until_it_is_full() -> None:
     assert [by_revolution[rev] for rev in (4, 6, 7, 8, 9, 10)] == [0, gap, gap, gap, 0, 0]
 
 
+def test_gap_is_forgotten_once_a_window_was_full() -> None:
+    meter = CompactionMeter(2)
+    wave = np.sin(np.arange(N) * STEP)
+    feed(meter, blocks(wave))
+    values = [feed(meter, blocks(wave, first=rev * N))[-1].status for rev in (2, 3)]
+    assert values == [Status.GAP | Status.WINDOW_FILLING, Status.NONE]
+    (standing,) = meter.feed(4 * N, np.zeros(N, np.float32), 1e-3, 0.0, 0.0, 0.0)
+    assert standing.status is Status.STANDING
+
+
 def test_late_block_does_not_heal_a_gap_that_was_passed() -> None:
     pieces = blocks(np.sin(np.arange(12 * N) * STEP))
     late = pieces.pop(43)

@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 
 from roller_sim_ros.meters import Mode, TruthMeter, TruthValue, summarise
+from roller_sim_ros.meters.summary import blows
 from roller_sim_ros.session.block import Block
 
 N = 128
@@ -120,6 +121,19 @@ def test_truth_agrees_with_the_summary_whatever_the_block_size(
     assert value.force_ratio_max == pytest.approx(expected.force_ratio_max)
     assert value.cmv == pytest.approx(expected.cmv, abs=1e-9)
     assert value.last_sample == 64 * N - 1
+
+
+def test_blows_are_contacts_that_begin_within_the_last_period() -> None:
+    air = np.ones(4 * N, dtype=bool)
+    for first in (0, N, N + 50, 2 * N, 3 * N + 100):
+        air[first : first + 20] = False
+    # A contact that begins with the first sample of the period counts; one that goes on does not.
+    assert [blows(air, period) for period in (1, 2)] == [1, 2]
+    air[2 * N - 5 : 2 * N] = False
+    assert blows(air, 2) == 1
+    air[-5:] = False
+    assert blows(air, 1) == 2
+    assert blows(air, 0) == blows(air, None) == 0
 
 
 def test_truth_is_unknown_until_the_window_is_full(drum: Callable[..., Any]) -> None:
