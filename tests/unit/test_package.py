@@ -45,6 +45,7 @@ ROS_COMMANDS = ("sim", "play")
 RECORD = "session.block"
 LAYERS = (
     "parameters",
+    "soil_mechanics",
     "half_space",
     "exciter",
     "drum_soil",
