@@ -1,0 +1,79 @@
+"""What `make docs` writes is what the declarations say, and the parameter files are accepted."""
+
+from __future__ import annotations
+
+import importlib.util
+from pathlib import Path
+from types import ModuleType
+
+import pytest
+import yaml
+
+from roller_sim_ros.parameters import PARAMETERS, Configuration
+from roller_sim_ros.parameters.file import read_parameters
+from roller_sim_ros.wire.topics import TOPICS
+
+ROOT = Path(__file__).resolve().parents[2]
+
+
+@pytest.fixture(scope="module")
+def generator() -> ModuleType:
+    path = ROOT / "tools" / "generate_docs.py"
+    spec = importlib.util.spec_from_file_location("generate_docs", path)
+    assert spec is not None
+    assert spec.loader is not None
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return module
+
+
+def test_generated_files_are_not_stale(generator: ModuleType) -> None:
+    assert generator.stale(generator.contents()) == [], "run make docs"
+
+
+def test_a_changed_file_is_found_and_written(
+    generator: ModuleType, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(generator, "ROOT", tmp_path)
+    for folder in ("docs", "config"):
+        (tmp_path / folder).mkdir()
+    assert generator.main(["--check"]) == 1
+    assert not list(tmp_path.glob("docs/*"))
+    assert generator.main([]) == 0
+    assert generator.main(["--check"]) == 0
+    page = tmp_path / "docs" / "topics.md"
+    page.write_text(page.read_text(encoding="utf-8") + "by hand\n", encoding="utf-8")
+    assert generator.stale(generator.contents()) == ["docs/topics.md"]
+
+
+def test_pages_name_every_parameter_and_every_topic(generator: ModuleType) -> None:
+    parameters, topics = generator.parameters_page(), generator.topics_page()
+    for name, (quantity, _) in PARAMETERS.items():
+        (row,) = [line for line in parameters.splitlines() if line.startswith(f"| `{name}` |")]
+        assert quantity.doc in row
+        assert quantity.flag in row
+    for topic in TOPICS:
+        (row,) = [line for line in topics.splitlines() if line.startswith(f"| `{topic.name}` |")]
+        assert topic.doc in row
+
+
+@pytest.mark.parametrize(
+    ("name", "expected"),
+    [
+        ("paper_roller", {}),
+        ("loose", {"soil.shear_modulus_pa": 35e6, "soil.plastic_parameter_m": 0.8e-3}),
+        ("medium", {"soil.shear_modulus_pa": 50e6, "soil.plastic_parameter_m": 0.65e-3}),
+        ("dense", {"soil.shear_modulus_pa": 80e6, "soil.plastic_parameter_m": 0.5e-3}),
+    ],
+)
+def test_parameter_files_say_the_paper_s_roller_and_soils(
+    name: str, expected: dict[str, float]
+) -> None:
+    path = ROOT / "config" / f"{name}.yaml"
+    values = read_parameters(path)
+    assert Configuration().changed(values) == Configuration().changed(expected)
+    # Whatever reads YAML 1.1 has to see numbers, not texts.
+    section = yaml.safe_load(path.read_text(encoding="utf-8"))["/**"]["ros__parameters"]
+    for group, content in section.items():
+        for short, value in content.items():
+            assert type(value) is type(PARAMETERS[f"{group}.{short}"][1])

@@ -1,0 +1,188 @@
+"""Writes what follows from the declarations: docs/parameters.md, docs/topics.md, config/*.yaml (`make docs`).
+
+``--check`` writes nothing and fails when a file is not what it would be.
+"""
+
+from __future__ import annotations
+
+import sys
+import textwrap
+from collections.abc import Iterable, Mapping, Sequence
+from decimal import Decimal
+from pathlib import Path
+
+from roller_sim_ros.parameters import PARAMETERS, Configuration, Pacing, Quantity, Value
+from roller_sim_ros.parameters.configuration import GROUPS
+from roller_sim_ros.wire.topics import TOPICS, Direction, Topic
+
+ROOT = Path(__file__).resolve().parent.parent
+GENERATED = "by tools/generate_docs.py (make docs) from the declarations"
+
+SOILS = {
+    "loose": ("the paper's softer ground (Figure 15): period 1 at 28 Hz, 1.6 mm", 35e6, 0.8e-3),
+    "medium": ("ground between the paper's two, the default", 50e6, 0.65e-3),
+    "dense": ("the paper's stiffer ground (Figure 15): double jump at 28 Hz, 1.6 mm", 80e6, 0.5e-3),
+}
+"""What it is, G in Pa, p in m."""
+
+
+def contents() -> dict[str, str]:
+    """Return {path from the root: text} of all generated files."""
+    default = Configuration()
+    files = {
+        "docs/parameters.md": parameters_page(),
+        "docs/topics.md": topics_page(),
+        "config/paper_roller.yaml": parameter_file(
+            "The paper's 10 t roller ('Roller data') at its nominal frequency and amplitude.",
+            default,
+            ("machine", "exciter"),
+        ),
+    }
+    for name, (what, shear_modulus_pa, plastic_parameter_m) in SOILS.items():
+        configuration = default.changed(
+            {
+                "soil.shear_modulus_pa": shear_modulus_pa,
+                "soil.plastic_parameter_m": plastic_parameter_m,
+            }
+        )
+        files[f"config/{name}.yaml"] = parameter_file(
+            f"{what[0].upper()}{what[1:]}.", configuration, ("soil",)
+        )
+    return files
+
+
+def parameters_page() -> str:
+    """Return the page of all parameters, a table for each group."""
+    lines = [
+        "# Parameters",
+        "",
+        f"Generated {GENERATED} in `roller_sim_ros/parameters/`.",
+        "",
+        "ROS 2 parameters and YAML files have the dotted names and SI units. **Live** ones change while the roller",
+        "runs, at the next multiple of 128 samples; the others are read-only while it is active. Flags of",
+        "`roller-sim sim` and `roller-sim run` are in the unit that their name ends in.",
+    ]
+    for group, declaration in GROUPS.items():
+        rows = [
+            (
+                f"`{name}`",
+                _value_text(default),
+                quantity.unit,
+                _bounds(quantity, default).replace("|", "\\|"),
+                "live" if quantity.live else "",
+                f"`{quantity.flag}` ({_flag_default(quantity, default)})" if quantity.flag else "",
+                quantity.doc,
+            )
+            for name, (quantity, default) in PARAMETERS.items()
+            if name.partition(".")[0] == group
+        ]
+        summary = (declaration.__doc__ or "").strip().splitlines()[0]
+        lines += ["", f"## {group}", "", summary, ""]
+        lines += _table(("name", "default", "unit", "bounds", "live", "flag", "what it is"), rows)
+    return "\n".join([*lines, ""])
+
+
+def topics_page() -> str:
+    """Return the page of all topics, a table for what the node does with them."""
+    pacing = Pacing()
+    lines = [
+        "# Topics",
+        "",
+        f"Generated {GENERATED} in `roller_sim_ros/wire/topics.py`.",
+        "",
+        "Names are relative to the node's namespace, so that they can be remapped; those that begin with / are not.",
+        "All are keep-last; depths are for the default pacing. QoS overrides are enabled (`qos_overrides.…`).",
+        "Fields and their units are explained in `msg/*.msg`; x is forward, z is up.",
+    ]
+    titles = {
+        Direction.PUBLISHED: "Published by the node",
+        Direction.SUBSCRIBED: "Obeyed by the node",
+        Direction.RECORDED: "Recorded beside them",
+    }
+    for direction, title in titles.items():
+        rows = [_topic_row(topic, pacing) for topic in TOPICS if topic.direction is direction]
+        lines += ["", f"## {title}", ""]
+        lines += _table(("topic", "type", "rate", "QoS", "what it says"), rows)
+    return "\n".join([*lines, ""])
+
+
+def parameter_file(title: str, configuration: Configuration, groups: Sequence[str]) -> str:
+    """Return a parameter file as ROS 2 reads it, with the parameters of some groups."""
+    values = configuration.flat()
+    lines = [f"# {title}", "#", f"# Generated {GENERATED}. SI units.", "/**:", "  ros__parameters:"]
+    for group in groups:
+        lines.append(f"    {group}:")
+        for name, (quantity, default) in PARAMETERS.items():
+            prefix, _, short = name.partition(".")
+            if prefix == group:
+                comment = textwrap.wrap(f"{quantity.doc}; {_bounds(quantity, default)}", 92)
+                lines += [f"      # {line}" for line in comment]
+                lines.append(f"      {short}: {_value_text(values[name])}")
+    return "\n".join([*lines, ""])
+
+
+def _topic_row(topic: Topic, pacing: Pacing) -> tuple[str, ...]:
+    qos = topic.qos(pacing)
+    durability = "" if qos.durability == "volatile" else f", {qos.durability.replace('_', '-')}"
+    return (
+        f"`{topic.name}`",
+        topic.type_name.replace("/msg/", "/"),
+        topic.rate,
+        f"{qos.reliability}, depth {qos.depth}{durability}",
+        topic.doc,
+    )
+
+
+def _bounds(quantity: Quantity, default: Value) -> str:
+    if isinstance(default, bool):
+        return "true or false"
+    if isinstance(default, str) and not quantity.choices:
+        return "any text"
+    return quantity.bounds_text()
+
+
+def _flag_default(quantity: Quantity, default: Value) -> str:
+    if isinstance(default, str):
+        return default or "none"
+    return f"{default / quantity.scale:g} {quantity.flag_unit}".rstrip()
+
+
+def _value_text(value: Value) -> str:
+    """Return a value as YAML has it, numbers without exponent: 2e-05 would be a text."""
+    if isinstance(value, bool):
+        return "true" if value else "false"
+    if isinstance(value, float):
+        text = f"{Decimal(repr(value)):f}"
+        return text if "." in text else f"{text}.0"
+    return str(value) if value != "" else '""'
+
+
+def _table(head: Sequence[str], rows: Iterable[Sequence[str]]) -> list[str]:
+    lines = ["| " + " | ".join(head) + " |", "|" + "---|" * len(head)]
+    return lines + ["| " + " | ".join(row) + " |" for row in rows]
+
+
+def stale(files: Mapping[str, str]) -> list[str]:
+    """Return the paths of files that are not what they would be."""
+    return [
+        name
+        for name, text in files.items()
+        if not (ROOT / name).is_file() or (ROOT / name).read_text(encoding="utf-8") != text
+    ]
+
+
+def main(arguments: Sequence[str]) -> int:
+    files = contents()
+    changed = stale(files)
+    if "--check" in arguments:
+        for name in changed:
+            print(f"{name} is stale: run make docs", file=sys.stderr)
+        return 1 if changed else 0
+    for name in changed:
+        (ROOT / name).write_text(files[name], encoding="utf-8")
+        print(f"wrote {name}")
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))
