@@ -28,13 +28,28 @@ def add_parameter_flags(parser: argparse.ArgumentParser, exclude: Collection[str
         title = name.partition(".")[0]
         if title not in groups:
             groups[title] = parser.add_argument_group(title.replace("_", " "))
-        groups[title].add_argument(
-            quantity.flag,
-            dest=_destination(name),
-            metavar=_metavar(quantity, default),
-            type=_text_or_number(default),
-            help=_help(quantity, default),
-        )
+        add_flag(groups[title], name, quantity, default)
+
+
+def add_flag(group: argparse._ArgumentGroup, name: str, quantity: Quantity, default: Value) -> None:
+    """Add the flag of one declaration, a parameter's or another's; not given it is None.
+
+    Parameters
+    ----------
+    group : argparse._ArgumentGroup
+        Where it goes.
+    name : str
+        Dotted name.
+    quantity, default : Quantity, Value
+        The declaration.
+    """
+    group.add_argument(
+        quantity.flag,
+        dest=_destination(name),
+        metavar=_metavar(quantity, default),
+        type=_text_or_number(default),
+        help=_help(quantity, default),
+    )
 
 
 def given_values(arguments: argparse.Namespace) -> dict[str, Value]:
@@ -45,18 +60,32 @@ def given_values(arguments: argparse.Namespace) -> dict[str, Value]:
     ParameterError
         If a value breaks its declaration; the message speaks of the flag and its unit.
     """
-    values: dict[str, Value] = {}
-    for name, (quantity, default) in PARAMETERS.items():
-        given = getattr(arguments, _destination(name), None)
-        if given is None:
-            continue
-        value = given if isinstance(default, str) else _si(given, quantity, default)
-        try:
-            values[name] = check(name, quantity, default, value)
-        except ParameterError:
-            bounds = _bounds(quantity, default)
-            raise ParameterError(quantity.flag, given, f"must be {bounds}") from None
-    return values
+    given = {
+        name: given_value(arguments, name, quantity, default)
+        for name, (quantity, default) in PARAMETERS.items()
+    }
+    return {name: value for name, value in given.items() if value is not None}
+
+
+def given_value(
+    arguments: argparse.Namespace, name: str, quantity: Quantity, default: Value
+) -> Value | None:
+    """Return the SI value of a flag added by `add_flag`, None when it was not given.
+
+    Raises
+    ------
+    ParameterError
+        If the value breaks its declaration; the message speaks of the flag and its unit.
+    """
+    given = getattr(arguments, _destination(name), None)
+    if given is None:
+        return None
+    value = given if isinstance(default, str) else _si(given, quantity, default)
+    try:
+        return check(name, quantity, default, value)
+    except ParameterError:
+        bounds = _bounds(quantity, default)
+        raise ParameterError(quantity.flag, given, f"must be {bounds}") from None
 
 
 def _destination(name: str) -> str:

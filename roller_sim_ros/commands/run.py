@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 
 from roller_sim_ros.commands.flags import add_parameter_flags, given_values
 from roller_sim_ros.commands.progress import progress
+from roller_sim_ros.commands.soil_flags import add_soil_flags, with_presets
 from roller_sim_ros.errors import RollerSimError
 from roller_sim_ros.parameters import Configuration
 from roller_sim_ros.parameters.file import read_parameters
@@ -28,6 +29,8 @@ examples:
   roller-sim run --shear-modulus-mpa 80 --plastic-mm 0.5 --plot run.png
   roller-sim run --params config/loose.yaml --run-up --record trace.mcap
   roller-sim run --amplitude-mm 0.8 --json - | python3 -m json.tool
+  roller-sim run --machine cs-563e --soil dense-gravel
+  roller-sim run --void-ratio 0.4 --friction-angle-deg 47 --unit-weight-kn-m3 20
 
 A trace holds the topics that the node publishes, with the same bytes. The exit code is 0 when the run came to
 its end, whatever the roller did.
@@ -71,11 +74,11 @@ def main(argv: list[str] | None = None) -> int:
 
 
 def _configuration(arguments: argparse.Namespace) -> Configuration:
-    """Return the defaults, changed by the file, changed by the flags."""
+    """Return the defaults, changed by the file, the presets and the flags, in this order."""
     configuration = Configuration()
     if arguments.params is not None:
         configuration = configuration.changed(read_parameters(arguments.params))
-    return configuration.changed(given_values(arguments))
+    return with_presets(configuration, arguments, given_values(arguments))
 
 
 def _run(configuration: Configuration, arguments: argparse.Namespace) -> Tail:
@@ -136,6 +139,7 @@ def _parser() -> argparse.ArgumentParser:
         type=Path,
         help="YAML file with parameters in SI units, as a ROS 2 node reads it or plainly nested; flags win over it",
     )
+    add_soil_flags(parser)
     add_parameter_flags(parser)
     return parser
 
