@@ -15,6 +15,7 @@ from roller_sim_ros.exciter import ExciterDrive, Revolution
 from roller_sim_ros.parameters import Configuration, ParameterError, Value, lookup
 from roller_sim_ros.session.block import Block
 from roller_sim_ros.session.command import Applied, ExciterCommand, ExciterStatus
+from roller_sim_ros.site import Site, UniformSite
 
 TWO_PI = 2.0 * math.pi
 _COMMAND_PARAMETERS = ("exciter.vibrate", "exciter.frequency_hz", "exciter.amplitude_m")
@@ -32,6 +33,8 @@ class Session:
     run_up : bool
         Start the exciter from standstill, following its rate limits; otherwise at once at full frequency and
         amplitude.
+    site : Site, optional
+        Where the roller is and what ground is there; the configured ground everywhere when not given.
 
     Attributes
     ----------
@@ -39,8 +42,12 @@ class Session:
         With all changes that took effect.
     """
 
-    def __init__(self, configuration: Configuration, *, run_up: bool = False) -> None:
+    def __init__(
+        self, configuration: Configuration, *, run_up: bool = False, site: Site | None = None
+    ) -> None:
         self.configuration = configuration
+        self.site: Site = UniformSite() if site is None else site
+        self._soil = self.site.soil(configuration.soil)
         self._samples = configuration.sampling.samples_per_revolution
         self._drive = ExciterDrive(
             configuration.exciter,
@@ -50,7 +57,7 @@ class Session:
         )
         self._ground = GROUNDS[configuration.half_space.model](
             configuration.machine,
-            configuration.soil,
+            self._soil,
             configuration.half_space,
             configuration.exciter,
             self._samples,
@@ -160,7 +167,7 @@ class Session:
         revolution = self._revolution
         assert revolution is not None  # set by _begin_revolution at the first sample
         out = self._ground.advance(first, samples)
-        soil = self.configuration.soil
+        soil = self._soil
         block = Block(
             first_sample=self._next_sample,
             time_s=self._revolution_start_s + first * revolution.sample_period_s,
@@ -186,11 +193,14 @@ class Session:
 
     def _begin_revolution(self) -> None:
         if self._revolution is not None:
-            self._revolution_start_s += self._samples * self._revolution.sample_period_s
+            duration_s = self._samples * self._revolution.sample_period_s
+            self._revolution_start_s += duration_s
+            self.site.move(duration_s)
         if self._pending:
             self._apply_pending()
         self._revolution = self._drive.next_revolution()
-        self._ground.begin(self._revolution, self.configuration.soil)
+        self._soil = self.site.soil(self.configuration.soil)
+        self._ground.begin(self._revolution, self._soil)
 
     def _apply_pending(self) -> None:
         before = self.configuration.flat()
