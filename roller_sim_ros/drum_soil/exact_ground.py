@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from functools import lru_cache
+from typing import Any
 
 import numpy as np
 
@@ -80,31 +81,27 @@ class ExactGround(Ground):
         state[at.DATUM] -= rest - old_rest
         self._free, self._free_rate = free, free_rate
 
-    def advance(self, first: int, samples: int) -> Array:
-        """Step over samples first … first + samples − 1 of the revolution."""
-        out = np.empty((at.OUT_ROWS, samples))
-        middle, ramp_2, ramp, step, chord, chord_rate, bulge_rate = self._answers
-        exact_kernel.advance(
-            samples,
-            first,
+    @property
+    def kernel_arguments(self) -> tuple[Any, ...]:
+        """State, constants, angles, the half space's answers, its free motion, no modes, scratch."""
+        return (
             self.state,
             self._constants,
             self._sine,
             self._cosine,
             self._angle,
-            middle,
-            ramp_2,
-            ramp,
-            step,
-            chord,
-            chord_rate,
-            bulge_rate,
+            *self._answers,
             self._free,
             self._free_rate,
             NO_MODES,
             self._bends,
-            out,
         )
+
+    def advance(self, first: int, samples: int) -> Array:
+        """Step over samples first … first + samples − 1 of the revolution."""
+        out = np.empty((at.OUT_ROWS, samples))
+        arguments: tuple[Any, ...] = (samples, first, *self.kernel_arguments, out)
+        exact_kernel.advance(*arguments)
         return out
 
 

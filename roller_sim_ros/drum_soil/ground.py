@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from abc import ABC, abstractmethod
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -165,6 +166,11 @@ class Ground(ABC):
     @abstractmethod
     def _change(self, soil: Soil, revolution: Revolution) -> None:
         """Take over another sample period or soil; `strip` and the constants are already the new ones."""
+
+    @property
+    @abstractmethod
+    def kernel_arguments(self) -> tuple[Any, ...]:
+        """What the kernel takes between the samples and the output; valid until the next `begin`."""
 
     @abstractmethod
     def advance(self, first: int, samples: int) -> Array:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 
 from roller_sim_ros.drum_soil import rational_kernel
@@ -49,12 +51,10 @@ class RationalGround(Ground):
         self._modes = self._modes_on(soil)
         self._modes[DISTANCE] = _moved(old, self._modes, distance, state[at.SURFACE_VELOCITY])
 
-    def advance(self, first: int, samples: int) -> Array:
-        """Step over samples first … first + samples − 1 of the revolution."""
-        out = np.empty((at.OUT_ROWS, samples))
-        rational_kernel.advance(
-            samples,
-            first,
+    @property
+    def kernel_arguments(self) -> tuple[Any, ...]:
+        """State, constants, angles, modes, scratch."""
+        return (
             self.state,
             self._constants,
             self._sine,
@@ -62,8 +62,13 @@ class RationalGround(Ground):
             self._angle,
             self._modes,
             self._bends,
-            out,
         )
+
+    def advance(self, first: int, samples: int) -> Array:
+        """Step over samples first … first + samples − 1 of the revolution."""
+        out = np.empty((at.OUT_ROWS, samples))
+        arguments: tuple[Any, ...] = (samples, first, *self.kernel_arguments, out)
+        rational_kernel.advance(*arguments)
         return out
 
 

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 
 from roller_sim_ros.drum_soil import state as at
@@ -52,12 +54,10 @@ class TwoPoleGround(Ground):
         state[at.DATUM] += state[at.SURFACE] - surface
         state[at.SURFACE] = surface
 
-    def advance(self, first: int, samples: int) -> Array:
-        """Step over samples first … first + samples − 1 of the revolution."""
-        out = np.empty((at.OUT_ROWS, samples))
-        two_pole_kernel.advance(
-            samples,
-            first,
+    @property
+    def kernel_arguments(self) -> tuple[Any, ...]:
+        """State, constants, angles, no modes, scratch."""
+        return (
             self.state,
             self._constants,
             self._sine,
@@ -65,6 +65,11 @@ class TwoPoleGround(Ground):
             self._angle,
             NO_MODES,
             self._bends,
-            out,
         )
+
+    def advance(self, first: int, samples: int) -> Array:
+        """Step over samples first … first + samples − 1 of the revolution."""
+        out = np.empty((at.OUT_ROWS, samples))
+        arguments: tuple[Any, ...] = (samples, first, *self.kernel_arguments, out)
+        two_pole_kernel.advance(*arguments)
         return out
