@@ -8,7 +8,7 @@ from collections.abc import Callable
 
 from roller_sim_ros.emulation import Emulator
 from roller_sim_ros.node.lateness import Lateness
-from roller_sim_ros.node.realtime import request_realtime
+from roller_sim_ros.node.realtime import precise_sleeps, request_realtime
 from roller_sim_ros.parameters import SAMPLES_PER_REVOLUTION
 from roller_sim_ros.wire.messages import Message
 
@@ -80,6 +80,7 @@ class Pacer:
         return self._progress
 
     def _run(self) -> None:
+        precise_sleeps()
         self.realtime = request_realtime(self._priority)
         self._started.set()
         try:

@@ -6,10 +6,17 @@ import ctypes
 import os
 
 _MCL_CURRENT = 1
+_PR_SET_TIMERSLACK = 29
+
+
+def precise_sleeps() -> None:
+    """Let the calling thread's sleeps end when they are due, not up to 50 µs later; needs no privilege."""
+    nanosecond = ctypes.c_ulong(1)
+    ctypes.CDLL(None).prctl(_PR_SET_TIMERSLACK, nanosecond, 0, 0, 0)
 
 
 def request_realtime(priority: int) -> list[str]:
-    """Try to give the calling thread real-time scheduling, a core of its own, and locked memory.
+    """Try to give the calling thread real-time scheduling and a core, and to lock the process's memory.
 
     Parameters
     ----------
@@ -23,13 +30,26 @@ def request_realtime(priority: int) -> list[str]:
     """
     if priority <= 0:
         return []
-    return [_scheduling(priority), _affinity(), _memory()]
+    return [request_scheduling(priority), _affinity(), _memory()]
 
 
-def _scheduling(priority: int) -> str:
+def request_scheduling(priority: int) -> str:
+    """Try to give the calling thread real-time scheduling, which its children do not inherit.
+
+    Parameters
+    ----------
+    priority : int
+        SCHED_FIFO priority; 0: ordinary scheduling again.
+
+    Returns
+    -------
+    str
+        What came of it.
+    """
+    policy = os.SCHED_FIFO | os.SCHED_RESET_ON_FORK if priority > 0 else os.SCHED_OTHER
     try:
         # 0 is the calling thread.
-        os.sched_setscheduler(0, os.SCHED_FIFO, os.sched_param(priority))
+        os.sched_setscheduler(0, policy, os.sched_param(max(0, priority)))
     except OSError as error:
         return f"SCHED_FIFO {priority} refused: {error.strerror}"
     return f"SCHED_FIFO {priority}"

@@ -18,6 +18,7 @@ from roller_sim_ros.node.lateness import Lateness
 from roller_sim_ros.node.outlet import Outlet
 from roller_sim_ros.node.pacing import Pacer
 from roller_sim_ros.node.qos import overridable, profile
+from roller_sim_ros.node.realtime import request_scheduling
 from roller_sim_ros.node.recording import Recording, receiver
 from roller_sim_ros.node.report import Drive, RecordingReport, Report, diagnostics
 from roller_sim_ros.node.warm_up import warm_up
@@ -129,6 +130,9 @@ class Roller:
         gc.freeze()
         self._reported = (0.0, 0.0)
         self._pacer.start()
+        if pacing.realtime_priority > 0:
+            # This thread holds the interpreter now and then; preempted in it, it would hold up the pacing.
+            request_scheduling(pacing.realtime_priority - 1)
         for line in self._pacer.realtime:
             self._node.get_logger().info(f"real time: {line}")
 
@@ -136,6 +140,8 @@ class Roller:
         """Stop; topics and recording stay open."""
         if self._pacer is not None:
             self._pacer.stop()
+            if self.configuration.pacing.realtime_priority > 0:
+                request_scheduling(0)
             self.report()
             self._pacer = None
 
