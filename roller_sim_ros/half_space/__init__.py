@@ -10,12 +10,18 @@ Where things are:
 - ``compliance``: exact compliance H(i omega), the transform of the transient
 - ``point_load_harmonic``: what a harmonic point load does
 - ``two_pole``: the paper's second-order half space
+- ``rational``, ``rational_fit``: eq. (9) of any order, fitted by linear programming
 - ``checks``: argument checks and `HalfSpaceError`
 """
 
 from roller_sim_ros.half_space.checks import HalfSpaceError
 from roller_sim_ros.half_space.compliance import exact_compliance, normalised_compliance
 from roller_sim_ros.half_space.point_load import rayleigh_slowness
+from roller_sim_ros.half_space.rational import (
+    RationalHalfSpace,
+    rational_compliance,
+    rational_half_space,
+)
 from roller_sim_ros.half_space.static import influence_integral, static_compliance
 from roller_sim_ros.half_space.step_response import (
     StepResponse,
@@ -40,4 +46,7 @@ __all__ = [
     "normalised_compliance",
     "two_pole_frequency",
     "two_pole_compliance",
+    "RationalHalfSpace",
+    "rational_half_space",
+    "rational_compliance",
 ]

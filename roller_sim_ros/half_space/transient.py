@@ -128,7 +128,7 @@ def _antiderivatives(
 
     step = of_parabola(curvature) + 0.5 * mu * i3
     n0 = 2.0 - c * c / (3.0 * b * b)
-    ramp = psi * u * (1.0 - 1.5 * curvature * u) * phi
+    ramp: NumberArray = psi * u * (1.0 - 1.5 * curvature * u) * phi
     ramp = ramp + tau * of_parabola(0.5 * curvature)
     ramp -= 0.5 * sigma * c * t * (n0 - curvature * u) * phi
     ramp -= 0.25 * sigma * c * tau * (n0 * i4 - curvature * i3)
@@ -169,6 +169,13 @@ def memory(aspect_ratio: float, poisson_ratio: float) -> float:
     """Return T v_s/sqrt(BL): from here on the response to a step is exactly its static value."""
     diagonal = math.sqrt(aspect_ratio + 1.0 / aspect_ratio)
     return point_load(poisson_ratio).slowness_rayleigh * diagonal
+
+
+def initial_velocity(aspect_ratio: float, poisson_ratio: float) -> float:
+    """Return ds/dtau at tau = 0+: the centre starts as a plane P wave does, stress/(rho v_p)."""
+    load = point_load(poisson_ratio)
+    centre = 0.75 * math.pi  # m(0), 2 pi times the stress in the centre
+    return centre * load.slowness_p / ((1.0 - poisson_ratio) * static_weight(aspect_ratio))
 
 
 def wave_fronts(aspect_ratio: float, poisson_ratio: float) -> list[float]:
