@@ -16,6 +16,7 @@ from roller_sim_ros.errors import RollerSimError
 COMMANDS = {
     "sim": "run the roller in real time as a ROS 2 node",
     "run": "run the roller without ROS, as fast as it goes",
+    "sweep": "map what the roller settles on over a grid of parameters",
     "analyze": "evaluate a trace: gaps, meter values, plot and CSV",
     "play": "republish a trace over ROS 2 at its original pace",
     "recover": "rewrite a trace that was cut off, and state what was lost",

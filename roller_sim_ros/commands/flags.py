@@ -46,9 +46,9 @@ def add_flag(group: argparse._ArgumentGroup, name: str, quantity: Quantity, defa
     group.add_argument(
         quantity.flag,
         dest=_destination(name),
-        metavar=_metavar(quantity, default),
+        metavar=metavar(quantity, default),
         type=_text_or_number(default),
-        help=_help(quantity, default),
+        help=help_text(quantity, default),
     )
 
 
@@ -80,19 +80,20 @@ def given_value(
     given = getattr(arguments, _destination(name), None)
     if given is None:
         return None
-    value = given if isinstance(default, str) else _si(given, quantity, default)
+    value = given if isinstance(default, str) else si_value(given, quantity, default)
     try:
         return check(name, quantity, default, value)
     except ParameterError:
-        bounds = _bounds(quantity, default)
-        raise ParameterError(quantity.flag, given, f"must be {bounds}") from None
+        must = f"must be {bounds_text(quantity, default)}"
+        raise ParameterError(quantity.flag, given, must) from None
 
 
 def _destination(name: str) -> str:
     return f"parameter {name}"
 
 
-def _si(given: float, quantity: Quantity, default: Value) -> float:
+def si_value(given: float, quantity: Quantity, default: Value) -> float:
+    """Return the SI value of a number in the flag's unit."""
     # Divided where that is exact: 1.6 mm shall be 0.0016 m, not the neighbour of it.
     inverse = 1.0 / quantity.scale
     value = given / inverse if inverse.is_integer() else given * quantity.scale
@@ -103,7 +104,8 @@ def _text_or_number(default: Value) -> type[str] | type[float]:
     return str if isinstance(default, str) else float
 
 
-def _metavar(quantity: Quantity, default: Value) -> str:
+def metavar(quantity: Quantity, default: Value) -> str:
+    """Return what stands for the value in ``--help``."""
     if quantity.choices:
         return "|".join(quantity.choices)
     if isinstance(default, str):
@@ -117,7 +119,8 @@ def _engineering(value: float, quantity: Quantity) -> str:
     return f"{value / quantity.scale:g}{unit}"
 
 
-def _bounds(quantity: Quantity, default: Value) -> str:
+def bounds_text(quantity: Quantity, default: Value) -> str:
+    """Return what a value of the flag may be, in the flag's unit."""
     if quantity.choices:
         return f"one of {', '.join(quantity.choices)}"
     whole = "a whole number, " if isinstance(default, int) else ""
@@ -132,10 +135,11 @@ def _bounds(quantity: Quantity, default: Value) -> str:
     return f"{whole}finite"
 
 
-def _help(quantity: Quantity, default: Value) -> str:
+def help_text(quantity: Quantity, default: Value) -> str:
+    """Return the help of the flag."""
     text = quantity.doc
     if not isinstance(default, str):
-        text += f"; {_bounds(quantity, default)}"
+        text += f"; {bounds_text(quantity, default)}"
         text += f" (default: {_engineering(float(default), quantity)})"
     elif default:
         text += f" (default: {default})"

@@ -57,6 +57,7 @@ LAYERS = (
     "traces",
     "analysis",
     "offline",
+    "sweep",
     "node",
     "commands",
 )
