@@ -22,7 +22,7 @@ from roller_sim_ros.traces.writer import FLUSH_PERIOD_S
 START_TIMEOUT_S = 15.0
 CLOSE_TIMEOUT_S = 1.8
 
-_SHIELDED = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
+_BLOCKED = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
 
 
 @dataclass(frozen=True)
@@ -36,13 +36,13 @@ class RecorderStatus:
     reason : str
         Why it failed, and the way out; else empty.
     messages, messages_written : int
-        Taken by the recording process, and of those in the file in whole chunks.
+        Taken by the recording process, and of those in the file in whole chunks (after a failure: at least).
     bytes_written : int
         Size of the file.
     dropped : mapping
         By topic, how many messages were refused: the ring was full, or the recording had failed or ended.
     lost : int
-        Messages that were handed over, but are not in the file because the recording failed.
+        Messages at most that were handed over, but are not in the file because the recording failed.
     """
 
     state: State
@@ -265,13 +265,13 @@ class Recorder:
 
 
 def _start(descriptor: int) -> subprocess.Popen[bytes]:
-    """Start the recording process; it does not see the signals that end this one."""
+    """Start the recording process; the signals that end this one are blocked there for good."""
     # The same import path as here, wherever this package and its dependencies came from.
     program = (
         f"import sys; sys.path[:] = {sys.path!r}; "
         "from roller_sim_ros.traces.recording_process import main; sys.exit(main())"
     )
-    before = signal.pthread_sigmask(signal.SIG_BLOCK, _SHIELDED)
+    before = signal.pthread_sigmask(signal.SIG_BLOCK, _BLOCKED)
     try:
         return subprocess.Popen(
             [sys.executable, "-c", program],

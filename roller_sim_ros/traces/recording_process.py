@@ -1,8 +1,8 @@
 """The process that writes the trace: it empties the ring until the other end of its standard input closes.
 
 It is started by `roller_sim_ros.traces.recorder`. The other end closes when the recorder is closed and
-when its process ends in whatever way; both times the file is finished. Signals that end the other process are
-not for this one.
+when its process ends in whatever way; both times the file is finished. The recorder starts this process with
+those signals blocked that end itself.
 """
 
 from __future__ import annotations
@@ -10,7 +10,6 @@ from __future__ import annotations
 import json
 import os
 import select
-import signal
 import sys
 import time
 from pathlib import Path
@@ -27,8 +26,6 @@ _STORES_ARRIVE_S = 0.002
 
 def main() -> int:
     """Read the task from standard input (a line of JSON), answer on standard output, then record."""
-    for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
-        signal.signal(number, signal.SIG_IGN)
     task = json.loads(sys.stdin.buffer.readline())
     ring = Ring(task["ring"])
     try:

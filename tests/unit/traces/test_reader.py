@@ -9,6 +9,7 @@ import pytest
 import yaml
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from mcap.reader import make_reader
 from rosbags.rosbag2 import StoragePlugin
 from rosbags.rosbag2 import Writer as BagWriter
 
@@ -123,7 +124,9 @@ def messages_before(path: Path, cut: int) -> int:
 @given(data=st.data())
 @settings(deadline=None, max_examples=150)
 @pytest.mark.parametrize("kind", ["chunked", "zstd", "lz4", "uncompressed"])
-def test_damaged_byte_yields_nothing_wrong(recordings, tmp_path_factory, kind: str, data) -> None:
+def test_damaged_byte_is_not_taken_in_silence(
+    recordings, tmp_path_factory, kind: str, data
+) -> None:
     recording = recordings[kind]
     content = bytearray(recording.path.read_bytes())
     place = data.draw(st.integers(8, len(content) - 1))
@@ -138,9 +141,23 @@ def test_damaged_byte_yields_nothing_wrong(recordings, tmp_path_factory, kind: s
         return
     finally:
         path.unlink()
-    # The checksums of the chunks cover every message.
-    assert all((item.log_time_ns, item.data) in written for item in got)
-    assert len(got) == len(written) or not reader.whole
+    # The checksums of the chunks cover every message; a record that turns into one is counted.
+    intact = all((item.log_time_ns, item.data) in written for item in got)
+    assert (intact and len(got) == len(written)) or not reader.whole
+
+
+def test_chunk_that_became_another_record_is_missed(chunked, tmp_path: Path) -> None:
+    with chunked.path.open("rb") as stream:
+        index = make_reader(stream).get_summary().chunk_indexes[20]
+    content = bytearray(chunked.path.read_bytes())
+    assert content[index.chunk_start_offset] == 0x06
+    content[index.chunk_start_offset] = 0x46
+    path = tmp_path / "a.mcap"
+    path.write_bytes(bytes(content))
+    reader = TraceReader(path)
+    count = len(chunked.written)
+    assert len(list(reader.messages())) == count - 1
+    assert f"it counts {count} messages in the file, there are {count - 1}" in reader.damage_text()
 
 
 @pytest.mark.parametrize(

@@ -230,8 +230,8 @@ def test_full_disk_stops_the_recording_and_not_the_caller(tmp_path: Path) -> Non
     assert recorder.close().state is State.FAILED
     # What was recorded until then is there.
     account = recover(path)
-    assert account.kept == status.messages_written > 100
-    assert numbers(account.target, "/a") == list(range(status.messages_written))
+    assert account.kept >= status.messages_written > 100
+    assert numbers(account.target, "/a") == list(range(account.kept))
 
 
 def test_process_that_ends_unasked_is_reported(tmp_path: Path) -> None:
