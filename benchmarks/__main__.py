@@ -1,0 +1,63 @@
+"""`python -m benchmarks [NAME …] [--write]`."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+
+from benchmarks.errors import BenchmarkError
+from benchmarks.machine import facts, load
+from benchmarks.options import Options
+from benchmarks.registry import BENCHMARKS, measure
+from benchmarks.report import PATH, section, write
+
+
+def main() -> int:
+    parser = argparse.ArgumentParser(
+        prog="python -m benchmarks",
+        description="Measure what the package costs, beside something that does the same in the same run.",
+        epilog="benchmarks:\n"
+        + "\n".join(f"  {name:10} {says}" for name, says in BENCHMARKS.items()),
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+    )
+    parser.add_argument("names", nargs="*", metavar="NAME", help="which ones; all by default")
+    parser.add_argument(
+        "--write", action="store_true", help=f"put the tables into {PATH.parent.name}/{PATH.name}"
+    )
+    parser.add_argument(
+        "--seconds",
+        type=float,
+        default=Options.seconds,
+        help="node: length of a lateness measurement in s, at each frequency (default %(default)g)",
+    )
+    parser.add_argument(
+        "--minutes",
+        type=float,
+        default=Options.minutes,
+        help="node: how long lost samples are counted, in min (default %(default)g)",
+    )
+    arguments = parser.parse_args()
+    unknown = [name for name in arguments.names if name not in BENCHMARKS]
+    if unknown:
+        parser.error(f"no benchmark {unknown[0]!r}: there are {', '.join(BENCHMARKS)}")
+    options = Options(seconds=arguments.seconds, minutes=arguments.minutes)
+    machine = facts()
+    failed = False
+    for name in BENCHMARKS:
+        if arguments.names and name not in arguments.names:
+            continue
+        before = load()
+        try:
+            text = section(measure(name, options), machine, before)
+        except BenchmarkError as error:
+            print(f"{name}: {error}", file=sys.stderr)
+            failed = True
+            continue
+        print(text, flush=True)
+        if arguments.write:
+            write({name: text}, list(BENCHMARKS))
+    return 1 if failed else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

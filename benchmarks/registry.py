@@ -1,0 +1,23 @@
+"""All benchmarks by name, in the order of the document; each is imported when it runs."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from importlib import import_module
+
+from benchmarks.options import Options
+from benchmarks.table import Table
+
+BENCHMARKS = {
+    "kernel": "ns per sample of both kernels, bare and through Python, against plain C",
+    "solve_ivp": "the two-pole kernel against scipy's solve_ivp at matched accuracy",
+    "node": "the real-time node: lateness against a bare loop, share of a core, lost samples",
+    "startup": "import times of the commands and the heaviest imports",
+}
+"""{name: what it measures}; the module benchmarks.<name> has measure(Options) -> Table."""
+
+
+def measure(name: str, options: Options) -> Table:
+    """Run one benchmark."""
+    function: Callable[[Options], Table] = import_module(f"benchmarks.{name}").measure
+    return function(options)
