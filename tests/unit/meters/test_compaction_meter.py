@@ -280,7 +280,7 @@ def test_window_must_be_even(revolutions: int) -> None:
 
 
 def test_every_meter_states_its_source() -> None:
-    assert [meter.name for meter in METERS] == ["cmv", "rmv"]
+    assert [meter.name for meter in METERS] == ["cmv", "rmv", "ccv"]
     for meter in METERS:
         assert len(meter.source) > 20
         assert meter.verified is False
@@ -291,5 +291,10 @@ def test_every_meter_states_its_source() -> None:
 def test_meter_values_of_known_amplitudes() -> None:
     from roller_sim_ros.meters.harmonics import Harmonics
 
-    harmonics = Harmonics((0.5, 1.0, 2.0), np.array([3.0j, -20.0, 5.0 + 0.0j]))
-    assert evaluate(harmonics) == {"cmv": pytest.approx(75.0), "rmv": pytest.approx(45.0)}
+    amplitudes = np.array([3.0j, -20.0, 1.0, 5.0 + 0.0j, -0.5j, 2.0])
+    harmonics = Harmonics((0.5, 1.0, 1.5, 2.0, 2.5, 3.0), amplitudes)
+    assert evaluate(harmonics) == {
+        "cmv": pytest.approx(75.0),
+        "rmv": pytest.approx(45.0),
+        "ccv": pytest.approx(100.0 * (3.0 + 1.0 + 5.0 + 0.5 + 2.0) / 23.0),
+    }
