@@ -183,9 +183,3 @@ class Ring:
         self._bytes[_REASON_AT : _REASON_AT + len(text)] = text
         self._words[_REASON_LENGTH] = len(text)
         self._words[_STATE] = state
-
-    def close(self) -> None:
-        """Let go of the memory."""
-        self._words.release()
-        self._bytes.release()
-        self._map.close()

@@ -92,11 +92,6 @@ class TraceWriter:
         """Size of the file."""
         return self._sink.position
 
-    @property
-    def closed(self) -> bool:
-        """Whether nothing can be written any more, closed or failed."""
-        return self._sink.closed
-
     def register(
         self,
         topic: str,

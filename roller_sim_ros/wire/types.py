@@ -77,11 +77,6 @@ def message_class(type_name: str) -> Any:
     return typestore().types[type_name]
 
 
-def constants(type_name: str) -> dict[str, Any]:
-    """Return the named constants of a message type of the store."""
-    return {name: value for name, _, value in typestore().fielddefs[type_name][0]}
-
-
 def encode(message: object, type_name: str) -> bytes:
     """Return a message object as little-endian CDR with its four header bytes."""
     return bytes(typestore().serialize_cdr(message, type_name, little_endian=True))

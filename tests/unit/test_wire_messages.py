@@ -11,7 +11,7 @@ from roller_sim_ros.sensors import IdealAccelerometer, Kind
 from roller_sim_ros.session import Applied, Block, ExciterCommand, ExciterStatus, Refusal
 from roller_sim_ros.wire import messages, topics
 from roller_sim_ros.wire.imu import imu
-from roller_sim_ros.wire.types import constants, decode, encode
+from roller_sim_ros.wire.types import decode, encode, typestore
 
 START_NS = 1_700_000_000_123_456_789
 
@@ -43,6 +43,10 @@ def make_block(count: int = 16, *, first_sample: int = 32, depth: float = 0.0) -
 
 def read(message: messages.Message):
     return decode(message.data, message.type_name)
+
+
+def constants(type_name: str) -> dict[str, int]:
+    return {name: value for name, _, value in typestore().fielddefs[type_name][0]}
 
 
 def nanoseconds(stamp) -> int:

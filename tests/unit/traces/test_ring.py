@@ -6,7 +6,6 @@ import os
 from collections import deque
 from itertools import islice
 
-import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
@@ -96,10 +95,3 @@ def test_report_goes_the_other_way() -> None:
     # What follows the reason in memory is not overwritten.
     pair.producer.push(Kind.MESSAGE, 1, 1, 0, 0, b"a")
     assert [item.data for item in pair.drain()] == [b"a"]
-
-
-def test_closed_ring_lets_go() -> None:
-    pair = Pair(4096)
-    pair.producer.close()
-    with pytest.raises(ValueError, match="released"):
-        pair.producer.push(Kind.MESSAGE, 1, 1, 0, 0, b"a")
