@@ -3,10 +3,16 @@
 from __future__ import annotations
 
 import argparse
+import json
 import sys
+from itertools import pairwise
 from pathlib import Path
 
 from roller_sim_ros.commands.flags import add_parameter_flags, given_values
+from roller_sim_ros.errors import RollerSimError
+from roller_sim_ros.parameters.file import read_parameters
+
+ROS_LEVEL = "ros__parameters"
 
 DESCRIPTION = """\
 Run the roller in real time as the ROS 2 node roller_sim: it vibrates, publishes acceleration, meter
@@ -46,14 +52,14 @@ def main(argv: list[str] | None = None) -> int:
     overrides = given_values(arguments)
     if arguments.record_topic:
         overrides["recording.topics"] = ",".join(arguments.record_topic)
+    if arguments.params is not None:
+        # Before the others, so that what is set by -p holds over the file.
+        ros = [*_from_file(arguments.params), *ros]
+    _check_files(ros)
     # What takes long to import, or needs ROS 2, comes after --help and wrong arguments.
-    from roller_sim_ros.node.parameter_file import check_parameter_file
     from roller_sim_ros.node.process import run_node
     from roller_sim_ros.node.status_line import status_line, summary
 
-    if arguments.params is not None:
-        check_parameter_file(arguments.params)
-        ros = ["--ros-args", "--params-file", str(arguments.params), "--", *ros]
     return run_node(
         ros,
         namespace=arguments.namespace,
@@ -77,6 +83,23 @@ def _split(arguments: list[str]) -> tuple[list[str], list[str]]:
     return own, ros
 
 
+def _from_file(path: Path) -> list[str]:
+    """Return the arguments for ROS 2 that set what a file says, once it is found to be right."""
+    values = read_parameters(path)
+    if ROS_LEVEL in path.read_text(encoding="utf-8"):
+        return ["--ros-args", "--params-file", str(path), "--"]
+    # Plainly nested, as ROS 2 does not read it. JSON is YAML, which ROS 2 takes the values for.
+    items = (f"{name}:={json.dumps(value)}" for name, value in values.items())
+    return ["--ros-args", *(word for item in items for word in ("-p", item)), "--"]
+
+
+def _check_files(ros: list[str]) -> None:
+    """Name a parameter file that is not there before ROS 2 does so in its own way."""
+    for flag, path in pairwise(ros):
+        if flag == "--params-file" and not Path(path).is_file():
+            raise RollerSimError(f"{path}: there is no such file")
+
+
 def _parser() -> argparse.ArgumentParser:
     parser = argparse.ArgumentParser(
         prog="roller-sim sim",
@@ -91,7 +114,8 @@ def _parser() -> argparse.ArgumentParser:
         "--params",
         type=Path,
         metavar="FILE.yaml",
-        help="parameters in the form that ROS 2 reads; some are installed under share/roller_sim_ros/config",
+        help="parameters, plainly nested or in the form that ROS 2 reads; some are installed under "
+        "share/roller_sim_ros/config",
     )
     # The messages are for 128 samples per revolution.
     add_parameter_flags(parser, exclude=("sampling.samples_per_revolution",))

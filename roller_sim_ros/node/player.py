@@ -70,6 +70,7 @@ def play(
     rate: float = 1.0,
     loop: bool = False,
     namespace: str = "",
+    subscribers: int = 0,
     delay_s: float = 0.0,
     on_message: Callable[[Played], None] | None = None,
 ) -> Played:
@@ -89,8 +90,10 @@ def play(
         Begin anew at the end.
     namespace : str
         Put in front of all names.
+    subscribers : int
+        Begin only when there are so many subscriptions to the topics together.
     delay_s : float
-        Time between announcing the topics and the first message, for subscribers to find them.
+        Time from then to the first message, for subscribers to find the topics.
     on_message : callable, optional
         Told what was played so far, after each message.
 
@@ -102,19 +105,23 @@ def play(
     played = Played()
     with _node(ros_arguments) as node:
         publishers = {topic.name: _publisher(node, topic, namespace) for topic in topics}
-        begin = time.monotonic() + delay_s
+        begin = time.monotonic()
         try:
+            while sum(item.get_subscription_count() for item in publishers.values()) < subscribers:
+                time.sleep(LONGEST_SLEEP_S)
+            begin = time.monotonic() + delay_s
             for late_s, message in _paced(timeline(reader, topics, loop=loop), rate, begin):
                 publishers[message.topic].publish(message.data)
                 played.messages += 1
                 played.latest_s = max(played.latest_s, late_s)
                 if on_message is not None:
                     on_message(played)
+            played.seconds = time.monotonic() - begin
             for publisher in publishers.values():
                 publisher.wait_for_all_acked(Duration(nanoseconds=int(ACKNOWLEDGED_WITHIN_S * 1e9)))
         except KeyboardInterrupt:
             played.interrupted = True
-        played.seconds = max(0.0, time.monotonic() - begin)
+            played.seconds = max(0.0, time.monotonic() - begin)
     return played
 
 
@@ -173,8 +180,10 @@ def _node(ros_arguments: Sequence[str]) -> Iterator[Node]:
             reason = str(error).strip().splitlines()[0]
             raise RollerSimError(f"ROS 2 refuses its arguments: {reason}") from error
         node = rclpy.create_node(NAME, start_parameter_services=False, enable_rosout=False)
-        yield node
-        node.destroy_node()
+        try:
+            yield node
+        finally:
+            node.destroy_node()
     finally:
         if rclpy.ok():
             rclpy.shutdown()

@@ -9,9 +9,11 @@ from contextlib import contextmanager
 from types import FrameType
 
 import rclpy
+from rclpy.exceptions import InvalidNamespaceException
 from rclpy.executors import SingleThreadedExecutor
 from rclpy.lifecycle import TransitionCallbackReturn
 from rclpy.signals import SignalHandlerOptions
+from rclpy.validate_namespace import validate_namespace
 
 from roller_sim_ros.errors import RollerSimError
 from roller_sim_ros.node.report import Report
@@ -88,6 +90,7 @@ def run_node(
     with _handled() as signals:
         try:
             _initialise(ros_arguments)
+            _check_namespace(namespace)
             node = RollerNode(namespace=namespace, overrides=overrides)
             node.on_report = on_report
             if node.autostart and not _autostart(node):
@@ -110,6 +113,14 @@ def _initialise(ros_arguments: Sequence[str]) -> None:
         rclpy.init(args=list(ros_arguments), signal_handler_options=SignalHandlerOptions.NO)
     except Exception as error:
         raise RollerSimError(f"ROS 2 refuses its arguments: {_first_line(error)}") from error
+
+
+def _check_namespace(namespace: str) -> None:
+    try:
+        validate_namespace(f"/{namespace.strip('/')}")
+    except InvalidNamespaceException as error:
+        reason = " ".join(str(error).split())
+        raise RollerSimError(f"--namespace {namespace}: {reason}") from error
 
 
 def _autostart(node: RollerNode) -> bool:

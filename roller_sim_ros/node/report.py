@@ -178,7 +178,8 @@ def _recording(report: Report) -> Diagnostic:
     elif recording.dropped:
         level, message = Level.ERROR, f"{recording.dropped} messages dropped"
     elif recording.problems:
-        level, message = Level.ERROR, "; ".join(recording.problems.values())
+        reasons = (f"{topic} is not recorded: {why}" for topic, why in recording.problems.items())
+        level, message = Level.ERROR, "; ".join(reasons)
     elif recording.awaited:
         level = Level.WARN
         message = f"nobody publishes {', '.join(recording.awaited)} yet"

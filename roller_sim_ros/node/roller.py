@@ -151,8 +151,8 @@ class Roller:
         self._close_recording()
         self._close_topics()
 
-    def change(self, values: Mapping[str, Value]) -> None:
-        """Change parameters, all or none.
+    def check(self, values: Mapping[str, Value]) -> Configuration:
+        """Return the configuration that `change` would make.
 
         Raises
         ------
@@ -165,7 +165,17 @@ class Roller:
                     raise ParameterError(
                         name, value, "cannot change while the roller is active; deactivate it first"
                     )
-        configuration = self.configuration.changed(values)
+        return self.configuration.changed(values)
+
+    def change(self, values: Mapping[str, Value]) -> None:
+        """Change parameters, all or none.
+
+        Raises
+        ------
+        ParameterError
+            As `check`.
+        """
+        configuration = self.check(values)
         if self._pacer is not None:
             self._pacer.emulator.change(values)
         else:

@@ -65,13 +65,25 @@ class RollerNode(LifecycleNode):
         self._next_report = 0.0
         self._echoing = False
         self.add_on_set_parameters_callback(self._on_set_parameters)
-        if hasattr(self, "add_pre_set_parameters_callback"):  # since Iron
-            self.add_pre_set_parameters_callback(parameters.floats_for_integers)
 
     @property
     def autostart(self) -> bool:
         """Whether the node is to be configured and activated when it starts."""
         return bool(self.get_parameter(parameters.AUTOSTART).value)
+
+    def set_parameters_atomically(
+        self, parameter_list: list[Parameter[Any]]
+    ) -> SetParametersResult:
+        """Set parameters, all or none: what the services for it call.
+
+        Checked here before rclpy does, whose reasons name neither unit nor parameter in all cases.
+        """
+        items = parameters.floats_for_integers(parameter_list)
+        try:
+            self.roller.check(_declared(items))
+        except RollerSimError as error:
+            return SetParametersResult(successful=False, reason=str(error))
+        return super().set_parameters_atomically(items)
 
     def shut_down(self) -> None:
         """Stop and close everything from whatever state; the node is of no use afterwards."""
@@ -128,7 +140,7 @@ class RollerNode(LifecycleNode):
         self.roller.release()
 
     def _on_set_parameters(self, items: list[Parameter[Any]]) -> SetParametersResult:
-        values = {item.name: item.value for item in items if item.name in PARAMETERS}
+        values = _declared(items)
         try:
             if values and not self._echoing:
                 self.roller.change(values)
@@ -157,3 +169,8 @@ class RollerNode(LifecycleNode):
                 self.set_parameters_atomically(changed)
             finally:
                 self._echoing = False
+
+
+def _declared(items: list[Parameter[Any]]) -> dict[str, Value]:
+    """Return {dotted name: value} of those that are the roller's."""
+    return {item.name: item.value for item in items if item.name in PARAMETERS}

@@ -1,0 +1,116 @@
+"""What is in the bag beside the node's own topics: commands, parameter events, the meter under test."""
+
+from __future__ import annotations
+
+import math
+
+from action_msgs.msg import GoalStatus
+from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
+from geometry_msgs.msg import PointStamped
+from std_msgs.msg import Float64
+
+from roller_sim_ros import __version__
+from roller_sim_ros.msg import AppliedChange, ExciterState
+from roller_sim_ros.traces.metadata import PARAMETERS as PARAMETER_RECORD
+from roller_sim_ros.traces.metadata import RUN
+from roller_sim_ros.traces.reader import TraceReader
+from roller_sim_ros.wire.topics import TOPICS
+from tests.integration.harness import entry, recorded
+
+
+def test_bag_holds_all_that_belongs_to_the_run(start, client, tmp_path):
+    bag = tmp_path / "trace.mcap"
+    sim = start(
+        *("--record", str(bag), "--shear-modulus-mpa", "60"),
+        *("--record-topic", "my_meter/cmv", "--record-topic", "/place"),
+        *("--record-topic", "nobody", "--record-topic", "cmv"),
+    )
+    states = client.listen("exciter/state", ExciterState)
+    applied = client.listen("applied", AppliedChange)
+    diagnostics = client.listen("/diagnostics", DiagnosticArray)
+    client.spin_until(lambda: states)
+
+    # Topics of others appear while the roller runs.
+    meter = client.node.create_publisher(Float64, "my_meter/cmv", 10)
+    place = client.node.create_publisher(PointStamped, "/place", 10)
+    client.spin_until(meter.get_subscription_count)
+    client.spin_until(place.get_subscription_count)
+    for number in range(20):
+        meter.publish(Float64(data=float(number)))
+    point = PointStamped()
+    point.header.frame_id = "site"
+    point.point.x = 4.5
+    place.publish(point)
+
+    # Commands, accepted and refused, and parameters.
+    client.command(frequency=29.0, amplitude=1e-3)
+    client.command(frequency=math.nan, amplitude=1e-3)
+    client.spin_until(lambda: states[-1].refusal_code)
+    assert client.set_parameter("soil.shear_modulus_pa", 70e6).successful
+    client.spin_until(lambda: any(item.value == 70e6 for item in applied))
+    status = client.spin_until(
+        lambda: (found := entry(diagnostics, "recording")) and found.level and found
+    )
+    assert status.level == DiagnosticStatus.WARN
+    assert "/nobody" in status.message
+    client.spin_for(0.5)
+    assert sim.end() == 0
+
+    reader = TraceReader(bag)
+    assert reader.whole
+    names = {topic.resolved() for topic in TOPICS}
+    assert names | {"/my_meter/cmv", "/place"} <= reader.topics.keys()
+    for name in ("/my_meter/cmv", "/place"):
+        assert reader.topics[name].messages > 0
+    assert [item.data for item in recorded(bag, "/my_meter/cmv")] == [float(n) for n in range(20)]
+    (there,) = recorded(bag, "/place")
+    assert there.point.x == 4.5
+    assert there.header.frame_id == "site"
+
+    commands = recorded(bag, "/exciter/command")
+    assert commands[0].frequency == 29.0
+    assert math.isnan(commands[1].frequency)
+    events = recorded(bag, "/parameter_events")
+    changed = {
+        item.name: item.value.double_value
+        for event in events
+        if event.node == "/roller_sim"
+        for item in event.changed_parameters
+    }
+    assert changed["soil.shear_modulus_pa"] == 70e6
+    assert changed["exciter.frequency_hz"] == 29.0  # the command, shown as a parameter
+
+    run, parameters = reader.metadata[RUN], reader.metadata[PARAMETER_RECORD]
+    assert run["version"] == __version__
+    assert int(run["start_time_ns"]) > 0
+    assert parameters["soil.shear_modulus_pa"] == "60000000.0"
+    assert parameters["recording.path"] == str(bag)
+
+    # Times of publishing and receiving make sense.
+    for message in reader.messages():
+        assert 0 <= message.log_time_ns - message.publish_time_ns < 10**9, message.topic
+    first = next(iter(reader.messages(["/drum/acceleration"])))
+    stamp = recorded(bag, "/drum/acceleration")[0].header.stamp
+    assert 0 <= first.log_time_ns - (stamp.sec * 10**9 + stamp.nanosec) < 10**9
+
+
+def test_type_without_definition_is_reported_not_fatal(start, client, tmp_path):
+    bag = tmp_path / "trace.mcap"
+    # The roller finds an empty package where its messages should be.
+    (tmp_path / "empty" / "action_msgs").mkdir(parents=True)
+    (tmp_path / "empty" / "action_msgs" / "__init__.py").touch()
+    sim = start(
+        *("--record", str(bag), "--record-topic", "/odd"), PYTHONPATH=str(tmp_path / "empty")
+    )
+    diagnostics = client.listen("/diagnostics", DiagnosticArray)
+    client.node.create_publisher(GoalStatus, "/odd", 10)
+    status = client.spin_until(
+        lambda: (
+            (found := entry(diagnostics, "recording"))
+            and found.level == DiagnosticStatus.ERROR
+            and found
+        )
+    )
+    assert "/odd" in status.message
+    assert sim.end() == 0
+    assert len(sim.complaints) == 1
