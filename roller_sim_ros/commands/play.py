@@ -27,7 +27,7 @@ EPILOG = """\
 examples:
   roller-sim play trace.mcap
   roller-sim play trace.mcap --topics drum/acceleration --namespace replay --rate 2
-  roller-sim play trace.mcap --ros-args -r /drum/acceleration:=/sensor/acceleration
+  roller-sim play trace.mcap --subscribers 1 --ros-args -r /drum/acceleration:=/sensor/acceleration
 
 Ctrl-C ends it. The exit code is 1 when the trace cannot be read to its end: then what can be read is played.
 """
@@ -82,6 +82,7 @@ def main(argv: list[str] | None = None) -> int:
         rate=arguments.rate,
         loop=arguments.loop,
         namespace=arguments.namespace,
+        subscribers=arguments.subscribers,
         delay_s=arguments.delay,
         on_message=_status() if sys.stderr.isatty() else None,
     )
@@ -128,11 +129,19 @@ def _parser() -> argparse.ArgumentParser:
         help="put in front of all names (default: none)",
     )
     parser.add_argument(
+        "--subscribers",
+        metavar="N",
+        type=_count,
+        default=0,
+        help="wait until there are so many subscriptions to the topics together (default: %(default)s)",
+    )
+    parser.add_argument(
         "--delay",
         metavar="S",
         type=_seconds,
         default=1.0,
-        help="time before the first message, for subscribers to find the topics, s (default: %(default)s)",
+        help="time from then to the first message, for subscribers to find the topics, s "
+        "(default: %(default)s)",
     )
     return parser
 
@@ -141,6 +150,13 @@ def _rate(text: str) -> float:
     number = float(text)
     if not (number > 0.0 and math.isfinite(number)):
         raise argparse.ArgumentTypeError(f"{text} is not a positive number")
+    return number
+
+
+def _count(text: str) -> int:
+    number = int(text)
+    if number < 0:
+        raise argparse.ArgumentTypeError(f"{number} is less than 0")
     return number
 
 
