@@ -11,12 +11,18 @@ Where things are:
 - ``point_load_harmonic``: what a harmonic point load does
 - ``two_pole``: the paper's second-order half space
 - ``rational``, ``rational_fit``: eq. (9) of any order, fitted by linear programming
+- ``circular``: circular loads, Sung's functions (Figure 7)
+- ``radiation``: how the radiated energy divides into Rayleigh, shear and compression waves
+- ``hysteresis``: hysteretic damping, for any dimensionless compliance
+- ``quadrature``: Gauss rules
 - ``checks``: argument checks and `HalfSpaceError`
 """
 
 from roller_sim_ros.half_space.checks import HalfSpaceError
+from roller_sim_ros.half_space.circular import circular_compliance, sung_functions
 from roller_sim_ros.half_space.compliance import exact_compliance, normalised_compliance
 from roller_sim_ros.half_space.point_load import rayleigh_slowness
+from roller_sim_ros.half_space.radiation import RadiatedEnergy, radiated_energy
 from roller_sim_ros.half_space.rational import (
     RationalHalfSpace,
     rational_compliance,
@@ -49,4 +55,8 @@ __all__ = [
     "RationalHalfSpace",
     "rational_half_space",
     "rational_compliance",
+    "sung_functions",
+    "circular_compliance",
+    "RadiatedEnergy",
+    "radiated_energy",
 ]

@@ -9,11 +9,8 @@ import math
 import numpy as np
 import numpy.typing as npt
 
-from roller_sim_ros.half_space.checks import (
-    HalfSpaceError,
-    require_poisson_ratio,
-    require_positive,
-)
+from roller_sim_ros.half_space.checks import require_poisson_ratio, require_positive
+from roller_sim_ros.half_space.hysteresis import over_frequency
 from roller_sim_ros.half_space.point_load import ComplexArray, FloatArray
 from roller_sim_ros.half_space.quadrature import gauss_legendre
 from roller_sim_ros.half_space.static import static_compliance
@@ -81,7 +78,7 @@ def _remainder_rule(
     fronts = [0.0, *wave_fronts(aspect_ratio, poisson_ratio)]
     for first, last in itertools.pairwise(fronts):
         length = last - first
-        unit, weight = gauss_legendre(32 + math.ceil(0.4 * highest * length))
+        unit, weight = gauss_legendre(48 + math.ceil(0.4 * highest * length))
         nodes.append(first + length * unit**2 * (3.0 - 2.0 * unit))
         weights.append(length * 6.0 * unit * (1.0 - unit) * weight)
     tau = np.concatenate(nodes)
@@ -125,25 +122,14 @@ def exact_compliance(
     ------
     HalfSpaceError
         If an argument is out of range.
-
-    Notes
-    -----
-    The correspondence principle gives the damped half space: replace G by the complex modulus in H0 and
-    in v_s, Poisson's ratio stays real. The static value of a damped half space is complex (its
-    hysteresis does not depend on the rate); at omega = 0 itself it is the real H0.
     """
-    if not (math.isfinite(hysteretic_damping) and hysteretic_damping >= 0.0):
-        raise HalfSpaceError(f"hysteretic_damping = {hysteretic_damping!r} must not be negative")
     require_positive(density=density)
     h0 = static_compliance(shear_modulus_pa, poisson_ratio, half_width_m, half_length_m)
-    angular = np.asarray(omega, dtype=np.float64)
-    if not np.all(np.isfinite(angular)):
-        raise HalfSpaceError("omega must be finite")
+    aspect_ratio = half_length_m / half_width_m
     unit_time = math.sqrt(half_width_m * half_length_m * density / shear_modulus_pa)
-    a0 = np.abs(angular) * unit_time
-    modulus = complex(1.0, 2.0 * hysteretic_damping)
-    damped = a0 / np.sqrt(modulus) if hysteretic_damping > 0.0 else a0
-    h = h0 * normalised_compliance(damped, half_length_m / half_width_m, poisson_ratio)
-    if hysteretic_damping > 0.0:
-        h = np.where(angular == 0.0, h, h / modulus)
-    return np.asarray(np.where(angular < 0.0, np.conj(h), h))
+    return h0 * over_frequency(
+        lambda a0: normalised_compliance(a0, aspect_ratio, poisson_ratio),
+        omega,
+        unit_time,
+        hysteretic_damping,
+    )
