@@ -1,4 +1,4 @@
-"""The compaction meter: CMV, RMV, period and mode from published samples, once a revolution.
+"""The compaction meter: CMV, RMV, period, mode and further values from published samples, once a revolution.
 
 It works on nothing but what a subscriber receives (float32 samples, timing and eccentric phase), so
 any client that feeds it the same samples gets the same numbers to the last bit, whatever the size
@@ -9,16 +9,18 @@ says why.
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, field
 
 import numpy as np
 from numpy.typing import NDArray
 
+from roller_sim_ros.meters.drum import Drum, DrumMotion
 from roller_sim_ros.meters.flight import lifts
 from roller_sim_ros.meters.harmonics import HarmonicsWindow
 from roller_sim_ros.meters.mode import Mode, metered_mode
-from roller_sim_ros.meters.period import PeriodWindow
-from roller_sim_ros.meters.registry import ORDERS, evaluate
+from roller_sim_ros.meters.period import NO_PERIOD, PeriodWindow
+from roller_sim_ros.meters.registry import FURTHER, ORDERS, evaluate, evaluate_drum
 from roller_sim_ros.meters.revolutions import (
     SAME_PHASE_SAMPLES,
     Loss,
@@ -29,8 +31,12 @@ from roller_sim_ros.meters.revolutions import (
 from roller_sim_ros.meters.status import Status
 from roller_sim_ros.parameters import SAMPLES_PER_REVOLUTION
 
-STEADY_FREQUENCY = 1e-9
-"""Relative difference below which two frequencies are the same."""
+STEADY = 1e-9
+"""Relative difference below which two frequencies, or two amplitudes, are the same."""
+
+
+def _unknown_further() -> dict[str, float]:
+    return dict.fromkeys((meter.name for meter in FURTHER), math.nan)
 
 
 @dataclass(frozen=True)
@@ -59,6 +65,9 @@ class MeterValue:
         Operating mode as far as the acceleration tells it.
     status : Status
         Why something is unknown.
+    further : mapping
+        {name: value} of all values beside CMV and RMV (`registry.FURTHER`), in their units; NaN when unknown, and
+        where the machine or the exciter's amplitude is not known or not the same all over the window.
     """
 
     last_sample: int
@@ -71,6 +80,7 @@ class MeterValue:
     period: int
     mode: Mode
     status: Status
+    further: Mapping[str, float] = field(default_factory=_unknown_further)
 
 
 class CompactionMeter:
@@ -89,6 +99,8 @@ class CompactionMeter:
         A_1 below which there is no value.
     samples_per_revolution : int
         N.
+    drum : Drum, optional
+        The machine, for the values that need it.
 
     Raises
     ------
@@ -101,6 +113,7 @@ class CompactionMeter:
         window_revolutions: int = 16,
         noise_floor_m_s2: float = 0.05,
         samples_per_revolution: int = SAMPLES_PER_REVOLUTION,
+        drum: Drum | None = None,
     ) -> None:
         if window_revolutions < 2 or window_revolutions % 2:
             raise ValueError(
@@ -114,6 +127,9 @@ class CompactionMeter:
         self._harmonics = HarmonicsWindow(window_revolutions, ORDERS, samples_per_revolution)
         self._period = PeriodWindow(window_revolutions, samples_per_revolution)
         self._frequencies = np.zeros(window_revolutions)
+        self._amplitudes = np.zeros(window_revolutions)
+        self._drum = drum
+        self._amplitude_m = math.nan
         self._samples_per_revolution = samples_per_revolution
         self._phase_rad = 0.0
         self._gap = False
@@ -126,6 +142,7 @@ class CompactionMeter:
         excitation_hz: float,
         eccentric_phase_rad: float,
         phase_increment_rad: float,
+        amplitude_m: float = math.nan,
     ) -> list[MeterValue]:
         """Take one block as published and return the values of the revolutions that it completes.
 
@@ -141,7 +158,10 @@ class CompactionMeter:
             Phase of the eccentric at the first sample.
         phase_increment_rad : float
             Phase from sample to sample.
+        amplitude_m : float
+            Nominal amplitude of the exciter, m; NaN when unknown.
         """
+        self._amplitude_m = amplitude_m
         timing = Timing(sample_period_s, excitation_hz, phase_increment_rad)
         values = []
         for item in self._collector.feed(
@@ -175,8 +195,7 @@ class CompactionMeter:
     def _known(self, last_sample: int, excitation_hz: float) -> MeterValue:
         """Return the value of a full window."""
         status = Status.NONE
-        spread = float(self._frequencies.max() - self._frequencies.min())
-        if spread > STEADY_FREQUENCY * excitation_hz:
+        if not _steady(self._frequencies):
             status |= Status.FREQUENCY_CHANGING
         harmonics = self._harmonics.harmonics()
         amplitude = harmonics.amplitude(1.0)
@@ -199,7 +218,26 @@ class CompactionMeter:
             period=period or 0,
             mode=metered_mode(lifting, period),
             status=status,
+            further=self._further(values, status, excitation_hz),
         )
+
+    def _further(
+        self, values: Mapping[str, float], status: Status, excitation_hz: float
+    ) -> dict[str, float]:
+        """Return all values beside CMV and RMV."""
+        known = dict(values)
+        steady = Status.FREQUENCY_CHANGING not in status and _steady(self._amplitudes)
+        if self._drum is not None and steady:
+            motion = DrumMotion(
+                self._period.repetitions(NO_PERIOD).ravel(),
+                self._drum,
+                amplitude_m=float(self._amplitudes[0]),
+                frequency_hz=excitation_hz,
+                phase_rad=self._phase_rad,
+                samples_per_revolution=self._samples_per_revolution,
+            )
+            known.update((name, float(value)) for name, value in evaluate_drum(motion).items())
+        return {name: known.get(name, math.nan) for name in _unknown_further()}
 
     def _unknown(
         self, last_sample: int, excitation_hz: float, status: Status, amplitude: float = math.nan
@@ -229,7 +267,13 @@ class CompactionMeter:
         self._harmonics.push(samples, index, revolution.phase_rad)
         self._period.push(samples)
         self._frequencies[index % self.window_revolutions] = revolution.excitation_hz
+        self._amplitudes[index % self.window_revolutions] = self._amplitude_m
 
     def _clear(self) -> None:
         self._harmonics.clear()
         self._period.clear()
+
+
+def _steady(values: NDArray[np.float64]) -> bool:
+    """Whether the values of a window are all known and the same."""
+    return bool(np.ptp(values) <= STEADY * values.max())

@@ -135,24 +135,25 @@ class DrumMotion:
 
     @property
     def phase(self) -> NDArray[np.float64]:
-        """Phase of the eccentric at each sample, rad, shape (samples,)."""
+        """Phase of the eccentric at the samples of the first revolution, and of each, rad."""
         step = 2.0 * math.pi / self.samples_per_revolution
-        return np.asarray(self.phase_rad + step * np.arange(self.vertical.shape[-1]))
+        return np.asarray(self.phase_rad + step * np.arange(self.samples_per_revolution))
 
     @cached_property
     def fundamental(self) -> NDArray[np.complex128]:
         """C_1, m/s², shape (...): the fundamental of the acceleration is Re C_1 exp(iφ)."""
-        samples = self.vertical.shape[-1]
-        turns = np.exp(-1j * self.phase) * (2.0 / samples)
-        return np.asarray(np.asarray(self.vertical, dtype=np.float64) @ turns)
+        mean_revolution = self._by_revolutions(self.vertical).mean(axis=-2, dtype=np.float64)
+        turns = np.exp(-1j * self.phase) * (2.0 / self.samples_per_revolution)
+        return np.asarray(mean_revolution @ turns)
 
     @cached_property
     def soil_force(self) -> NDArray[np.float64]:
         """F_s on the drum, N, up positive, shape (..., samples)."""
         vertical = np.asarray(self.vertical, dtype=np.float64)
         inertia = _column(self.drum.mass_kg) * (vertical - vertical.mean(axis=-1, keepdims=True))
-        exciter = _column(self.force_amplitude) * np.sin(self.phase)
-        return np.asarray(inertia - exciter + _column(self.drum.static_load_n))
+        rest = _column(self.drum.static_load_n) - _column(self.force_amplitude) * np.sin(self.phase)
+        force = self._by_revolutions(inertia) + rest[..., np.newaxis, :]
+        return np.asarray(force.reshape(inertia.shape), dtype=np.float64)
 
     @cached_property
     def height(self) -> NDArray[np.float64]:
@@ -162,6 +163,10 @@ class DrumMotion:
         orders = np.arange(1, spectrum.shape[-1]) / self.revolutions
         spectrum[..., 1:] /= -((_column(self.omega) * orders) ** 2)
         return np.asarray(np.fft.irfft(spectrum, self.vertical.shape[-1]))
+
+    def _by_revolutions(self, values: NDArray[np.floating]) -> NDArray[np.floating]:
+        """Return the samples in one row for each revolution."""
+        return values.reshape(*values.shape[:-1], -1, self.samples_per_revolution)
 
 
 def _column(value: npt.ArrayLike) -> NDArray[np.float64]:

@@ -22,9 +22,9 @@ class EVib:
     """Young's modulus whose line contact is as steep as the loading branch (BOMAG); Pa.
 
     Of every two revolutions the branch is taken that leads to the greatest force; its slope by regression of the
-    travel on the force, over the samples between 40 and 90 % of the way from the lowest force before it, which is
-    zero when the drum was in the air, to the peak. Lundberg's relation is inverted for the same forces, without
-    linearising it. The value is the mean over the window.
+    travel on the force, over the samples between 40 and 90 % of the way to that peak from the lowest force in the
+    revolution before it (zero when the drum was in the air). Lundberg's relation is inverted for the same forces,
+    without linearising it. The value is the mean over the window.
     """
 
     name: ClassVar[str] = "e_vib"
@@ -83,8 +83,8 @@ def vibration_modulus(
     force, height = np.broadcast_arrays(soil_force, height)
     samples, span = force.shape[-1], 2 * samples_per_revolution
     peaks = _peaks(force, span)
-    # Each row: the two revolutions that lead to a peak, the peak last.
-    rows = (peaks[..., np.newaxis] + np.arange(-span, 1)) % samples
+    # Each row: the revolution that leads to a peak, the peak last.
+    rows = (peaks[..., np.newaxis] + np.arange(-samples_per_revolution, 1)) % samples
     shape = (*rows.shape[:-2], -1)
     forces = np.take_along_axis(force, rows.reshape(shape), axis=-1).reshape(rows.shape)
     depths = -np.take_along_axis(height, rows.reshape(shape), axis=-1).reshape(rows.shape)

@@ -16,8 +16,8 @@ from numpy.typing import NDArray
 
 CONSTANT = 1.8864
 
-_ROUNDS = 40
-"""A round leaves a tenth of the error or so."""
+_ROUNDS = 6
+"""Newton's rounds, of which five suffice from 1 kPa to 10 GPa."""
 
 
 def approach(
@@ -59,8 +59,8 @@ def modulus(
 
     z is c F (a + ½ ln E − ½ ln F) / E with constants a and c. Whatever linear measure of slope is taken of the
     points (a secant, a regression), it is 1 for F itself; if it is s for F ln F, z has the slope
-    c (a + ½ ln E − ½ s) / E. This is solved for E by repetition, for the bracket first, which changes little. Of
-    the two solutions it finds the physical one, where z rises with the force.
+    c (a + ½ ln E − ½ s) / E. With x for the bracket that is x − ½ ln x = d, solved by Newton's rule from above: of
+    the two solutions that is the physical one, x > ½, where z rises with the force.
 
     Parameters
     ----------
@@ -85,8 +85,10 @@ def modulus(
     width = 16.0 / math.pi * np.asarray(radius_m) * plane / length
     rest = CONSTANT + np.log(length) - 0.5 * np.log(width) - 0.5 * np.asarray(force_log_slope)
     with np.errstate(invalid="ignore", divide="ignore"):
-        bracket = np.ones(np.broadcast_shapes(slope.shape, rest.shape))
+        level = rest + 0.5 * np.log(scale / slope)
+        bracket = level + 0.5 * np.log(2.0 * np.maximum(level, 1.0))
         for _ in range(_ROUNDS):
-            bracket = rest + 0.5 * np.log(scale * bracket / slope)
+            bracket -= (bracket - 0.5 * np.log(bracket) - level) / (1.0 - 0.5 / bracket)
         found = scale * bracket / slope
-    return np.where(slope > 0.0, found, np.nan)
+    # The least that x − ½ ln x can be is what it is at ½.
+    return np.where((slope > 0.0) & (level > 0.5 - 0.5 * math.log(0.5)), found, np.nan)
