@@ -33,6 +33,8 @@ class Drive:
         Last value.
     unsettled_steps : int
         Steps whose phase changes did not settle.
+    finite : bool
+        Whether the motion is still given in numbers.
     """
 
     simulated_s: float
@@ -43,6 +45,7 @@ class Drive:
     exciter: ExciterStatus
     meter: MeterValue | None
     unsettled_steps: int
+    finite: bool
 
 
 @dataclass(frozen=True)
@@ -120,6 +123,8 @@ def _pacing(report: Report) -> Diagnostic:
     level, message = Level.OK, "on time"
     if drive is None:
         level, message = Level.OK, "not active"
+    elif not drive.finite:
+        level, message = Level.ERROR, "the motion is no number any more: deactivate and activate"
     elif drive.unsettled_steps:
         level, message = Level.WARN, f"{drive.unsettled_steps} steps did not settle"
     elif recent.late:

@@ -7,6 +7,7 @@ import math
 from collections.abc import Mapping
 from typing import Any
 
+import numpy as np
 from rclpy.node import Node
 from rclpy.subscription import Subscription
 
@@ -140,6 +141,7 @@ class Roller:
         """Stop; topics and recording stay open."""
         if self._pacer is not None:
             self._pacer.stop()
+            gc.unfreeze()
             if self.configuration.pacing.realtime_priority > 0:
                 request_scheduling(0)
             self.report()
@@ -317,4 +319,5 @@ def _drive(emulator: Emulator) -> Drive | None:
         exciter=emulator.session.exciter_status(),
         meter=emulator.meter_value,
         unsettled_steps=emulator.session.unsettled_steps,
+        finite=bool(np.isfinite(block.acceleration_vertical).all()),
     )

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable, Mapping
+from contextlib import suppress
 from typing import Any
 
 from rcl_interfaces.msg import SetParametersResult
-from rclpy.clock import Clock
-from rclpy.clock_type import ClockType
+from rclpy.clock import Clock, ClockType  # type: ignore[attr-defined]
 from rclpy.lifecycle import LifecycleNode, LifecycleState, TransitionCallbackReturn
 from rclpy.parameter import Parameter
 from rclpy.timer import Timer
@@ -87,8 +87,9 @@ class RollerNode(LifecycleNode):
 
     def shut_down(self) -> None:
         """Stop and close everything from whatever state; the node is of no use afterwards."""
-        self.trigger_shutdown()
-        # A transition that was interrupted leaves the state machine where it cannot shut down.
+        # It cannot shut down twice, nor from within a transition that was interrupted.
+        with suppress(RuntimeError):
+            self.trigger_shutdown()
         self._release()
 
     def on_configure(self, _state: LifecycleState) -> TransitionCallbackReturn:
