@@ -6,8 +6,10 @@ from roller_sim_ros.session.command import (
     CommandRefused,
     ExciterCommand,
     ExciterStatus,
+    Master,
     Refusal,
 )
+from roller_sim_ros.session.programme import Programme
 from roller_sim_ros.session.session import Session, warm_up
 
 __all__ = [
@@ -16,6 +18,8 @@ __all__ = [
     "CommandRefused",
     "ExciterCommand",
     "ExciterStatus",
+    "Master",
+    "Programme",
     "Refusal",
     "Session",
     "warm_up",

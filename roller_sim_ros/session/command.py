@@ -1,4 +1,4 @@
-"""Exciter commands: what is asked, and why it may be refused."""
+"""Commands: what is asked and by whom, and why it may be refused."""
 
 from __future__ import annotations
 
@@ -8,6 +8,7 @@ from enum import IntEnum
 
 from roller_sim_ros.errors import RollerSimError
 from roller_sim_ros.parameters import lookup
+from roller_sim_ros.site import MAX_SPEED_M_S
 
 
 class Refusal(IntEnum):
@@ -21,8 +22,25 @@ class Refusal(IntEnum):
     TIMEOUT = 5
 
 
+class Master(IntEnum):
+    """Whom the exciter or the travel obeys; the values of the messages' ``master`` fields."""
+
+    NONE = 0
+    """There is no scenario: what was configured or commanded last holds."""
+    SCENARIO = 1
+    COMMAND = 2
+    """A live exciter command, until released."""
+    CMD_VEL = 3
+    """A live travel command, until released."""
+
+    @property
+    def label(self) -> str:
+        """The master as a reader wants it."""
+        return self.name.lower()
+
+
 class CommandRefused(RollerSimError):
-    """An exciter command was refused as a whole.
+    """A command to the exciter or to the travel was refused as a whole.
 
     Attributes
     ----------
@@ -93,6 +111,8 @@ class ExciterStatus:
         F_e = m_d A ω² now, N.
     applied_sample : int
         Sample at which the last accepted command took effect.
+    master : Master
+        Whom it obeys.
     """
 
     vibrating: bool
@@ -102,22 +122,45 @@ class ExciterStatus:
     amplitude_m: float
     force_amplitude_n: float
     applied_sample: int
+    master: Master = Master.NONE
 
 
 @dataclass(frozen=True)
 class Applied:
-    """A command or a parameter change that took effect.
+    """A command, a parameter change or a change of the master that took effect.
 
     Attributes
     ----------
     sample : int
         Index of the first sample it acts on, a multiple of 128.
     name : str
-        Dotted name of the parameter.
+        Dotted name of the parameter; ``travel.speed_m_s`` of a travel command; ``exciter.master`` or
+        ``travel.master``.
     value : bool, int, float or str
-        New value, SI.
+        New value, SI; of a master its label.
+    master : Master
+        On whose account.
     """
 
     sample: int
     name: str
     value: bool | int | float | str
+    master: Master = Master.NONE
+
+
+def checked_speed(speed_m_s: float) -> float:
+    """Return a commanded travel speed as it is.
+
+    Raises
+    ------
+    CommandRefused
+        If it is not finite or beyond what a roller does.
+    """
+    if not math.isfinite(speed_m_s):
+        raise CommandRefused(Refusal.NOT_FINITE, f"speed {speed_m_s} m/s: must be finite")
+    if abs(speed_m_s) > MAX_SPEED_M_S:
+        raise CommandRefused(
+            Refusal.OUT_OF_RANGE,
+            f"speed {speed_m_s:g} m/s: must be at most {MAX_SPEED_M_S:g} m/s forth or back",
+        )
+    return float(speed_m_s)

@@ -14,7 +14,15 @@ from roller_sim_ros.errors import RollerSimError
 from roller_sim_ros.exciter import ExciterDrive, Revolution
 from roller_sim_ros.parameters import Configuration, ParameterError, Value, lookup
 from roller_sim_ros.session.block import Block
-from roller_sim_ros.session.command import Applied, ExciterCommand, ExciterStatus
+from roller_sim_ros.session.command import (
+    Applied,
+    ExciterCommand,
+    ExciterStatus,
+    Master,
+    checked_speed,
+)
+from roller_sim_ros.session.masters import Masters
+from roller_sim_ros.session.programme import Programme
 from roller_sim_ros.site import Site, UniformSite
 
 TWO_PI = 2.0 * math.pi
@@ -35,15 +43,26 @@ class Session:
         amplitude.
     site : Site, optional
         Where the roller is and what ground is there; the configured ground everywhere when not given.
+    programme : Programme, optional
+        What the exciter is to do while nobody else commands it.
 
     Attributes
     ----------
     configuration : Configuration
         With all changes that took effect.
+    site : Site
+        As given.
+    masters : Masters
+        Whom exciter and travel obey.
     """
 
     def __init__(
-        self, configuration: Configuration, *, run_up: bool = False, site: Site | None = None
+        self,
+        configuration: Configuration,
+        *,
+        run_up: bool = False,
+        site: Site | None = None,
+        programme: Programme | None = None,
     ) -> None:
         self.configuration = configuration
         self.site: Site = UniformSite() if site is None else site
@@ -68,6 +87,8 @@ class Session:
         self._pending: dict[str, Value] = {}
         self._applied: list[Applied] = []
         self._command_sample = 0
+        self._programme = programme
+        self.masters = Masters(scenario=programme is not None)
 
     @property
     def next_sample(self) -> int:
@@ -95,6 +116,32 @@ class Session:
         command = ExciterCommand(vibrate, frequency_hz, amplitude_m)
         values = (command.vibrate, command.frequency_hz, command.amplitude_m)
         self._pending.update(zip(_COMMAND_PARAMETERS, values, strict=True))
+        self.masters.command_exciter()
+
+    def command_travel(self, speed_m_s: float) -> None:
+        """Command the travel speed; takes effect at the next multiple of 128 samples.
+
+        Parameters
+        ----------
+        speed_m_s : float
+            Positive towards growing chainage.
+
+        Raises
+        ------
+        CommandRefused
+            If the speed is refused; the roller carries on as before.
+        """
+        self.masters.command_travel(checked_speed(speed_m_s))
+
+    def release(self) -> None:
+        """Hand exciter and travel back to the scenario, at the next multiple of 128 samples.
+
+        Without a scenario the exciter keeps what was commanded, and the roller stops.
+        """
+        if self._programme is not None:
+            for name in _COMMAND_PARAMETERS:
+                self._pending.pop(name, None)
+        self.masters.release()
 
     def change(self, values: Mapping[str, Value]) -> None:
         """Change live parameters; takes effect at the next multiple of 128 samples.
@@ -107,14 +154,18 @@ class Session:
         Raises
         ------
         ParameterError
-            If a name is unknown, a parameter is not live, or a value is refused.
+            If a name is unknown, a parameter is not live or decided by the site, or a value is refused.
         """
         for name, value in values.items():
             quantity, _ = lookup(name, value)
             if not quantity.live:
                 raise ParameterError(name, value, "cannot change while the roller runs")
+            if name in self.site.decides:
+                raise ParameterError(name, value, "is what the scenario's ground makes it")
         checked = self.configuration.changed({**self._pending, **values}).flat()
         self._pending.update({name: checked[name] for name in values})
+        if any(name in _COMMAND_PARAMETERS for name in values):
+            self.masters.command_exciter()
 
     def applied(self) -> list[Applied]:
         """Return what took effect since the last call, in the order of effect."""
@@ -135,6 +186,7 @@ class Session:
             * drive.amplitude_m
             * (TWO_PI * drive.frequency_hz) ** 2,
             applied_sample=self._command_sample,
+            master=self.masters.exciter,
         )
 
     def advance(self, samples: int) -> Block:
@@ -195,7 +247,11 @@ class Session:
         if self._revolution is not None:
             duration_s = self._samples * self._revolution.sample_period_s
             self._revolution_start_s += duration_s
-            self.site.move(duration_s)
+            self.site.move(duration_s, self._force_ratio())
+        for name, value, master in self.masters.take_effect(self.site):
+            self._tell(name, value, master)
+        if self._programme is not None and self.masters.exciter is Master.SCENARIO:
+            self._follow(self._programme)
         if self._pending:
             self._apply_pending()
         self._revolution = self._drive.next_revolution()
@@ -209,13 +265,38 @@ class Session:
             if name in _COMMAND_PARAMETERS:
                 self._command_sample = self._next_sample
             if before[name] != value:
-                self._applied.append(Applied(self._next_sample, name, value))
+                self._tell(name, value, self._master_of(name))
         self._pending = {}
         exciter = self.configuration.exciter
         self._drive.target_frequency_hz = exciter.frequency_hz if exciter.vibrate else 0.0
         self._drive.target_amplitude_m = exciter.amplitude_m
         self._drive.frequency_rate_hz_per_s = exciter.frequency_rate_hz_per_s
         self._drive.amplitude_rate_m_per_s = exciter.amplitude_rate_m_per_s
+
+    def _follow(self, programme: Programme) -> None:
+        """Let the exciter do what the scenario has it do here and now."""
+        command = programme.command(self._revolution_start_s, self.site.position)
+        exciter = self.configuration.exciter
+        now = (exciter.vibrate, exciter.frequency_hz, exciter.amplitude_m)
+        wanted = (command.vibrate, command.frequency_hz, command.amplitude_m)
+        if wanted != now:
+            self._pending.update(zip(_COMMAND_PARAMETERS, wanted, strict=True))
+
+    def _master_of(self, name: str) -> Master:
+        return self.masters.exciter if name in _COMMAND_PARAMETERS else Master.NONE
+
+    def _tell(self, name: str, value: Value, master: Master) -> None:
+        self._applied.append(Applied(self._next_sample, name, value, master))
+
+    def _force_ratio(self) -> float:
+        """Amplitude of the exciter's force over the static load."""
+        machine = self.configuration.machine
+        return (
+            machine.drum_mass_kg
+            * self._drive.amplitude_m
+            * (TWO_PI * self._drive.frequency_hz) ** 2
+            / machine.static_load_n
+        )
 
 
 def warm_up(configuration: Configuration) -> None:
