@@ -65,7 +65,7 @@ _ROOT_TOLERANCE = 1e-8
 _ROOT_ITERATIONS = 40
 
 
-@njit
+@inlined
 def _part(
     phase: int,
     t: float,
@@ -102,10 +102,13 @@ def _part(
                 two_pole,
                 constants,
             )
-        answer_y, motion_y = two_pole_answer(y, two_pole)
         answer_x, motion_x = two_pole_answer(x, two_pole)
-        known_y = two_pole_free(e, w, force, motion_y, two_pole)
         known_x = two_pole_free(e, w, force, motion_x, two_pole)
+        # In the air only the end is asked for.
+        answer_y, known_y = answer_x, known_x
+        if phase == LOADING:
+            answer_y, motion_y = two_pole_answer(y, two_pole)
+            known_y = two_pole_free(e, w, force, motion_y, two_pole)
         slope_before = 0.0
     elif half_space == MODES:
         answer_y, answer_x, known_y, known_x = answers_and_motion(x, force, two_pole[2], modes)
