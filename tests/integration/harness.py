@@ -10,6 +10,7 @@ import sys
 import time
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
+from itertools import count
 from pathlib import Path
 from typing import Any
 
@@ -32,6 +33,7 @@ PATIENCE_S = 30.0
 """Generous: how long anything may take before the test fails."""
 
 NODE = "roller_sim"
+_NUMBERS = count()
 TRANSITIONS = {
     "configure": Transition.TRANSITION_CONFIGURE,
     "activate": Transition.TRANSITION_ACTIVATE,
@@ -140,7 +142,8 @@ class Client:
     def __init__(self, domain: int, namespace: str = "") -> None:
         self.context = Context()
         rclpy.init(context=self.context, domain_id=domain)
-        self.node = Node("client", context=self.context, namespace=namespace)
+        name = f"client_{next(_NUMBERS)}"
+        self.node = Node(name, context=self.context, namespace=namespace)
         self.executor = SingleThreadedExecutor(context=self.context)
         self.executor.add_node(self.node)
         self._commands = self.node.create_publisher(ExciterCommand, "exciter/command", 10)

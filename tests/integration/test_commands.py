@@ -135,7 +135,11 @@ def test_watchdog_runs_the_exciter_down(start, client):
     assert [item.text for item in applied if item.name == "exciter.vibrate"][-1] == "false"
     assert states[-1].refusal_code == ExciterState.TIMEOUT
     status = client.spin_until(
-        lambda: (found := entry(diagnostics, "exciter")) and found.level and found
+        lambda: (
+            (found := entry(diagnostics, "exciter"))
+            and found.level == DiagnosticStatus.WARN
+            and found
+        )
     )
     assert "exciter.command_timeout_s" in status.message
     assert logged() == before + 1
