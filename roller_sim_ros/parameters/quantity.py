@@ -27,12 +27,15 @@ class ParameterError(RollerSimError):
         Full name of the parameter, as in ``soil.shear_modulus_pa``.
     value : object
         The refused value.
+    reason : str
+        What it must be, or why it cannot be what it is.
     """
 
     def __init__(self, name: str, value: object, reason: str) -> None:
         super().__init__(f"{name} = {value!r}: {reason}")
         self.name = name
         self.value = value
+        self.reason = reason
 
 
 @dataclass(frozen=True)

@@ -9,7 +9,7 @@ from roller_sim_ros.session.command import (
     Master,
     Refusal,
 )
-from roller_sim_ros.session.programme import Programme
+from roller_sim_ros.session.programme import Moment, Programme
 from roller_sim_ros.session.session import Session, warm_up
 
 __all__ = [
@@ -19,6 +19,7 @@ __all__ = [
     "ExciterCommand",
     "ExciterStatus",
     "Master",
+    "Moment",
     "Programme",
     "Refusal",
     "Session",

@@ -22,7 +22,7 @@ from roller_sim_ros.session.command import (
     checked_speed,
 )
 from roller_sim_ros.session.masters import Masters
-from roller_sim_ros.session.programme import Programme
+from roller_sim_ros.session.programme import Moment, Programme
 from roller_sim_ros.site import Site, UniformSite
 
 TWO_PI = 2.0 * math.pi
@@ -94,6 +94,13 @@ class Session:
     def next_sample(self) -> int:
         """Index of the sample that the next `advance` begins with."""
         return self._next_sample
+
+    @property
+    def moment(self) -> Moment:
+        """When and where the revolution of the next sample begins, or began."""
+        return Moment(
+            self._revolution_start_s, self._next_sample // self._samples, self.site.position
+        )
 
     @property
     def samples_per_revolution(self) -> int:
@@ -275,7 +282,7 @@ class Session:
 
     def _follow(self, programme: Programme) -> None:
         """Let the exciter do what the scenario has it do here and now."""
-        command = programme.command(self._revolution_start_s, self.site.position)
+        command = programme.command(self.moment)
         exciter = self.configuration.exciter
         now = (exciter.vibrate, exciter.frequency_hz, exciter.amplitude_m)
         wanted = (command.vibrate, command.frequency_hz, command.amplitude_m)

@@ -46,7 +46,7 @@ class GroundValues(Record):
                     soil, plastic_parameter_m=_covarying(self.shear_modulus_mpa, machine)
                 )
         if self.plastic_mm is not None:
-            soil = replace(soil, plastic_parameter_m=self.plastic_mm * 1e-3)
+            soil = replace(soil, plastic_parameter_m=self.plastic_mm / 1e3)
         if self.density_kg_m3 is not None:
             soil = replace(soil, density_kg_m3=self.density_kg_m3)
         if self.poisson_ratio is not None:

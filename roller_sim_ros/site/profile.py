@@ -53,7 +53,9 @@ class Profile:
     @property
     def centres_m(self) -> Array:
         """Chainage of the middle of each cell."""
-        centres: Array = (np.arange(len(self.shear_modulus_pa), dtype=np.float64) + 0.5) * self.cell_m
+        centres: Array = (
+            np.arange(len(self.shear_modulus_pa), dtype=np.float64) + 0.5
+        ) * self.cell_m
         return centres
 
     def between(self, from_m: float, to_m: float | None) -> NDArray[np.bool_]:

@@ -93,5 +93,5 @@ class CompactionLaw(Record):
             stiff = stiff + share * np.maximum(limit.shear_modulus_pa - stiff, 0.0)
             firm = firm - share * np.maximum(firm - limit.plastic_parameter_m, 0.0)
         elif self.limit_plastic_mm is not None:
-            firm = firm - share * np.maximum(firm - self.limit_plastic_mm * 1e-3, 0.0)
+            firm = firm - share * np.maximum(firm - self.limit_plastic_mm / 1e3, 0.0)
         return stiff, firm

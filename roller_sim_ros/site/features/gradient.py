@@ -51,7 +51,7 @@ class Gradient(Feature):
             ratio[first:] = 1.0 + share * (self.shear_modulus_mpa * 1e6 / before - 1.0)
         if self.plastic_mm is not None:
             plastic_ratio = np.ones(len(centres))
-            plastic_ratio[first:] = 1.0 + share * (self.plastic_mm * 1e-3 / plastic - 1.0)
+            plastic_ratio[first:] = 1.0 + share * (self.plastic_mm / 1e3 / plastic - 1.0)
         profile.shear_modulus_pa[first:] = before
         profile.plastic_parameter_m[first:] = plastic
         profile.stiffen(ratio, plastic_ratio)
