@@ -87,13 +87,16 @@ def draw_acceleration(
 
 def draw_spectrum(axes: Axes, vertical: NDArray[np.floating], samples_per_revolution: int) -> None:
     """Draw the amplitudes of the vertical acceleration, m/s², of an even number of whole revolutions."""
+    harmonics = order_amplitudes(vertical, ORDERS, samples_per_revolution)
+    if harmonics.amplitude(1.0) == 0.0:
+        say_nothing(axes, "no vibration")
+        return
     revolutions = len(vertical) // samples_per_revolution
     amplitudes = 2.0 * np.abs(np.fft.rfft(vertical)) / len(vertical)
     orders = np.arange(len(amplitudes)) / revolutions
     shown = (orders > 0.0) & (orders <= HIGHEST_ORDER)
     floor = max(float(amplitudes[shown].max()) * 1e-4, 1e-9)
     axes.vlines(orders[shown], floor, np.maximum(amplitudes[shown], floor), BLUE, linewidth=0.9)
-    harmonics = order_amplitudes(vertical, ORDERS, samples_per_revolution)
     for order in ORDERS:
         height = harmonics.amplitude(order)
         if height > 2.0 * floor:
