@@ -1,0 +1,37 @@
+"""`python -m benchmarks.bare_loop PERIOD_S`: absolute deadlines and nothing else, until it is interrupted.
+
+What any Python process on this machine can do at that moment; the node's pacing is compared with it.
+"""
+
+from __future__ import annotations
+
+import json
+import sys
+import time
+
+from benchmarks.interrupts import Interrupted
+from benchmarks.percentiles import percentiles
+from roller_sim_ros.node.realtime import precise_sleeps
+
+
+def main() -> None:
+    period_s = float(sys.argv[1])
+    interrupted = Interrupted()
+    precise_sleeps()
+    lateness_s: list[float] = []
+    print("ready", flush=True)
+    monotonic, sleep, note = time.monotonic, time.sleep, lateness_s.append
+    start = monotonic()
+    count = 0
+    while not interrupted:
+        count += 1
+        due_s = start + count * period_s
+        wait_s = due_s - monotonic()
+        if wait_s > 0.0:
+            sleep(wait_s)
+        note(monotonic() - due_s)
+    print(json.dumps({**percentiles(lateness_s), "late": sum(x > period_s for x in lateness_s)}))
+
+
+if __name__ == "__main__":
+    main()
