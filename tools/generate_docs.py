@@ -1,4 +1,4 @@
-"""Writes what follows from the declarations: docs/parameters.md, docs/topics.md, config/*.yaml (`make docs`).
+"""Writes what follows from the declarations: docs pages, config/*.yaml, README's tables (`make docs`).
 
 ``--check`` writes nothing and fails when a file is not what it would be.
 """
@@ -32,6 +32,7 @@ def contents() -> dict[str, str]:
     files = {
         "docs/parameters.md": parameters_page(),
         "docs/topics.md": topics_page(),
+        "README.md": readme((ROOT / "README.md").read_text(encoding="utf-8")),
         "config/paper_roller.yaml": parameter_file(
             "The paper's 10 t roller ('Roller data') at its nominal frequency and amplitude.",
             default,
@@ -49,6 +50,35 @@ def contents() -> dict[str, str]:
             f"{what[0].upper()}{what[1:]}.", configuration, ("soil",)
         )
     return files
+
+
+def readme(text: str) -> str:
+    """Return the README with its tables and examples as the declarations and files are now."""
+    pacing = Pacing()
+    parameters = [
+        (
+            f"`{name}`",
+            _value_text(default),
+            quantity.unit,
+            "live" if quantity.live else "",
+            quantity.doc,
+        )
+        for name, (quantity, default) in PARAMETERS.items()
+    ]
+    topics = [_topic_row(topic, pacing) for topic in TOPICS]
+    blocks = {
+        "topics": _table(("topic", "type", "rate", "QoS", "what it says"), topics),
+        "parameters": _table(("name", "default", "unit", "live", "what it is"), parameters),
+    }
+    for example in ("meter_client", "controller_client"):
+        code = (ROOT / "examples" / f"{example}.py").read_text(encoding="utf-8")
+        blocks[example] = ["```python", code.rstrip(), "```"]
+    for name, lines in blocks.items():
+        start, end = f"<!-- generated: {name} -->\n", "<!-- end -->"
+        before, _, rest = text.partition(start)
+        _, _, after = rest.partition(end)
+        text = "".join([before, start, "\n".join(["", *lines, "", end]), after])
+    return text
 
 
 def parameters_page() -> str:
