@@ -9,8 +9,9 @@ from typing import Any
 from rclpy.node import Node
 from rclpy.publisher import Publisher
 
+from roller_sim_ros.errors import RollerSimError
 from roller_sim_ros.node.interfaces import message_type
-from roller_sim_ros.node.qos import overridable, profile
+from roller_sim_ros.node.qos import overridable, overrides_of, profile
 from roller_sim_ros.parameters import Pacing
 from roller_sim_ros.traces.recorder import Recorder
 from roller_sim_ros.wire import topics
@@ -27,6 +28,11 @@ class Outlet:
     pacing : Pacing
         Depths depend on it.
 
+    Raises
+    ------
+    RollerSimError
+        If a quality of service is refused that parameters ask for.
+
     Attributes
     ----------
     trace : Recorder or None
@@ -39,14 +45,13 @@ class Outlet:
         self.trace: Recorder | None = None
         self.publishers: dict[str, Publisher[Any]] = {}
         self._node = node
-        for topic in topics.TOPICS:
-            if topic.direction is topics.Direction.PUBLISHED:
-                self.publishers[topic.name] = node.create_publisher(
-                    message_type(topic.type_name),
-                    topic.name,
-                    profile(topic.qos(pacing)),
-                    qos_overriding_options=overridable(),
-                )
+        try:
+            for topic in topics.TOPICS:
+                if topic.direction is topics.Direction.PUBLISHED:
+                    self._open(topic, pacing)
+        except RollerSimError:
+            self.destroy()
+            raise
         self._names = {name: item.topic_name for name, item in self.publishers.items()}
 
     def send(self, messages: Iterable[Message]) -> None:
@@ -60,6 +65,15 @@ class Outlet:
     def imu_wanted(self) -> bool:
         """Return whether anyone listens to the per-sample messages."""
         return bool(self.publishers[topics.IMU.name].get_subscription_count())
+
+    def _open(self, topic: topics.Topic, pacing: Pacing) -> None:
+        with overrides_of(topic):
+            self.publishers[topic.name] = self._node.create_publisher(
+                message_type(topic.type_name),
+                topic.name,
+                profile(topic.qos(pacing)),
+                qos_overriding_options=overridable(),
+            )
 
     def destroy(self) -> None:
         """Destroy the publishers."""

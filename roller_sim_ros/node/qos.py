@@ -2,10 +2,16 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from contextlib import contextmanager
+
 from rclpy.qos import DurabilityPolicy, HistoryPolicy, QoSProfile, ReliabilityPolicy
 from rclpy.qos_overriding_options import QoSOverridingOptions
 
+from roller_sim_ros.errors import RollerSimError
+from roller_sim_ros.parameters import Pacing
 from roller_sim_ros.wire.qos import Qos
+from roller_sim_ros.wire.topics import Topic
 
 _RELIABILITY = {
     "reliable": ReliabilityPolicy.RELIABLE,
@@ -15,6 +21,24 @@ _DURABILITY = {
     "volatile": DurabilityPolicy.VOLATILE,
     "transient_local": DurabilityPolicy.TRANSIENT_LOCAL,
 }
+
+
+@contextmanager
+def overrides_of(topic: Topic) -> Iterator[None]:
+    """Name the topic when rclpy refuses what a parameter ``qos_overrides.…`` asks for.
+
+    Raises
+    ------
+    RollerSimError
+        Then.
+    """
+    try:
+        yield
+    except (AssertionError, RuntimeError, TypeError, ValueError) as error:
+        reason = " ".join(str(error).split()) or "not understood"
+        raise RollerSimError(
+            f"qos_overrides of {topic.name}: {reason}; without them it is {topic.qos(Pacing())}"
+        ) from error
 
 
 def overridable() -> QoSOverridingOptions:

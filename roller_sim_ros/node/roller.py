@@ -18,7 +18,7 @@ from roller_sim_ros.node.interfaces import message_type
 from roller_sim_ros.node.lateness import Lateness
 from roller_sim_ros.node.outlet import Outlet
 from roller_sim_ros.node.pacing import Pacer
-from roller_sim_ros.node.qos import overridable, profile
+from roller_sim_ros.node.qos import overridable, overrides_of, profile
 from roller_sim_ros.node.realtime import request_scheduling
 from roller_sim_ros.node.recording import Recording, receiver
 from roller_sim_ros.node.report import Drive, RecordingReport, Report, diagnostics
@@ -90,14 +90,15 @@ class Roller:
         try:
             warm_up(configuration)
             self._outlet = Outlet(self._node, configuration.pacing)
-            self._commands = self._node.create_subscription(
-                message_type(topic.type_name),
-                topic.name,
-                receiver(self._on_command),
-                profile(topic.qos(configuration.pacing)),
-                raw=True,
-                qos_overriding_options=overridable(),
-            )
+            with overrides_of(topic):
+                self._commands = self._node.create_subscription(
+                    message_type(topic.type_name),
+                    topic.name,
+                    receiver(self._on_command),
+                    profile(topic.qos(configuration.pacing)),
+                    raw=True,
+                    qos_overriding_options=overridable(),
+                )
             self._open_recording(self._outlet, self._commands.topic_name)
         except RollerSimError:
             self.release()

@@ -62,6 +62,8 @@ def test_life_from_unconfigured_to_its_end(start, client):
     assert client.change_state("cleanup")
     assert client.state() == "unconfigured"
     assert client.node.count_publishers("/drum/acceleration") == 0
+    assert client.change_state("shutdown")
+    assert client.state() == "finalized"
     assert sim.end() == 0
     assert "Traceback" not in "\n".join(sim.complaints)
 

@@ -62,6 +62,16 @@ def test_bad_file_is_refused_in_one_line(start, tmp_path, text, words):
         (["--params", "missing.yaml"], 1, ["missing.yaml", "cannot be read"]),
         (["--ros-args", "--params-file", "missing.yaml"], 1, ["missing.yaml"]),
         (["--ros-args", "-p", "soil.shear_modulus:=1.0"], 1, ["soil.shear_modulus_pa"]),
+        (
+            ["--ros-args", "-p", "qos_overrides./meter.publisher.reliability:=perhaps"],
+            1,
+            ["meter", "perhaps", "reliable"],
+        ),
+        (
+            ["--ros-args", "-p", "qos_overrides./meter.publisher.depth:=many"],
+            1,
+            ["qos_overrides", "meter"],
+        ),
         (["--ros-args", "-p", "autostart:=3"], 1, ["autostart = 3", "true or false"]),
         (["--frequency-hz", "81"], 1, ["--frequency-hz = 81", "0 … 80 Hz"]),
         (["--plastic-mm", "nan"], 1, ["--plastic-mm = nan", "0.02 … 20 mm"]),
