@@ -42,7 +42,8 @@ bench: setup
 	@exec $(VENV)/python -m benchmarks $(ARGS)
 
 docs: setup
-	@exec $(VENV)/python tools/generate_docs.py
+	@$(VENV)/python tools/generate_docs.py
+	@exec $(VENV)/python tools/generate_schema.py
 
 clean:
 	rm -rf .venv build install log dist roller_sim_ros.egg-info .mypy_cache .pytest_cache .ruff_cache .hypothesis

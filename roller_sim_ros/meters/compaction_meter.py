@@ -19,7 +19,7 @@ from roller_sim_ros.meters.drum import Drum, DrumMotion
 from roller_sim_ros.meters.flight import lifts
 from roller_sim_ros.meters.harmonics import HarmonicsWindow
 from roller_sim_ros.meters.mode import Mode, metered_mode
-from roller_sim_ros.meters.period import NO_PERIOD, PeriodWindow
+from roller_sim_ros.meters.period import NO_PERIOD, TOLERANCE, PeriodWindow
 from roller_sim_ros.meters.registry import FURTHER, ORDERS, evaluate, evaluate_drum
 from roller_sim_ros.meters.revolutions import (
     SAME_PHASE_SAMPLES,
@@ -101,6 +101,8 @@ class CompactionMeter:
         N.
     drum : Drum, optional
         The machine, for the values that need it.
+    period_tolerance : float
+        Share of the peak within which the motion has to repeat.
 
     Raises
     ------
@@ -114,6 +116,7 @@ class CompactionMeter:
         noise_floor_m_s2: float = 0.05,
         samples_per_revolution: int = SAMPLES_PER_REVOLUTION,
         drum: Drum | None = None,
+        period_tolerance: float = TOLERANCE,
     ) -> None:
         if window_revolutions < 2 or window_revolutions % 2:
             raise ValueError(
@@ -125,7 +128,7 @@ class CompactionMeter:
             1, window_revolutions * samples_per_revolution, samples_per_revolution
         )
         self._harmonics = HarmonicsWindow(window_revolutions, ORDERS, samples_per_revolution)
-        self._period = PeriodWindow(window_revolutions, samples_per_revolution)
+        self._period = PeriodWindow(window_revolutions, samples_per_revolution, period_tolerance)
         self._frequencies = np.zeros(window_revolutions)
         self._amplitudes = np.zeros(window_revolutions)
         self._drum = drum

@@ -65,12 +65,18 @@ class PeriodWindow:
         Revolutions in the window.
     samples_per_revolution : int
         Samples in one revolution.
+    tolerance : float
+        Share of the peak within which the motion has to repeat.
     """
 
     def __init__(
-        self, window_revolutions: int, samples_per_revolution: int = SAMPLES_PER_REVOLUTION
+        self,
+        window_revolutions: int,
+        samples_per_revolution: int = SAMPLES_PER_REVOLUTION,
+        tolerance: float = TOLERANCE,
     ) -> None:
         self.window_revolutions = window_revolutions
+        self.tolerance = tolerance
         self._candidates = tuple(p for p in CANDIDATES if 2 * p <= window_revolutions)
         self._revolutions = np.zeros((window_revolutions, samples_per_revolution))
         self._changes = np.zeros((len(self._candidates), window_revolutions))
@@ -121,6 +127,6 @@ class PeriodWindow:
         for row, candidate in enumerate(self._candidates):
             compared = newest - np.arange(self.window_revolutions - candidate)
             changes = self._changes[row, compared % self.window_revolutions]
-            if changes.max() <= TOLERANCE * peak:
+            if changes.max() <= self.tolerance * peak:
                 return candidate
         return NO_PERIOD if len(self._candidates) == len(CANDIDATES) else None

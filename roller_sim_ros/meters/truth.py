@@ -9,7 +9,7 @@ import numpy as np
 
 from roller_sim_ros.meters.harmonics import HarmonicsWindow
 from roller_sim_ros.meters.mode import Mode, true_mode
-from roller_sim_ros.meters.period import PeriodWindow
+from roller_sim_ros.meters.period import TOLERANCE, PeriodWindow
 from roller_sim_ros.meters.registry import ORDERS, evaluate
 from roller_sim_ros.meters.revolutions import Revolution, RevolutionCollector, Timing
 from roller_sim_ros.meters.summary import blows
@@ -61,6 +61,8 @@ class TruthMeter:
         F_stat, N.
     samples_per_revolution : int
         N.
+    period_tolerance : float
+        Share of the peak within which the motion has to repeat.
     """
 
     def __init__(
@@ -68,6 +70,7 @@ class TruthMeter:
         window_revolutions: int,
         static_load_n: float,
         samples_per_revolution: int = SAMPLES_PER_REVOLUTION,
+        period_tolerance: float = TOLERANCE,
     ) -> None:
         self.window_revolutions = window_revolutions
         self.static_load_n = static_load_n
@@ -77,7 +80,7 @@ class TruthMeter:
             3, window_revolutions * samples_per_revolution, samples_per_revolution
         )
         self._harmonics = HarmonicsWindow(window_revolutions, ORDERS, samples_per_revolution)
-        self._period = PeriodWindow(window_revolutions, samples_per_revolution)
+        self._period = PeriodWindow(window_revolutions, samples_per_revolution, period_tolerance)
         self._forces = np.zeros(window_revolutions)
         self._frequencies = np.zeros(window_revolutions)
         self._air = np.zeros(window_revolutions * samples_per_revolution, dtype=np.bool_)

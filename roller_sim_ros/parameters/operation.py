@@ -49,6 +49,14 @@ class Meter(ParameterGroup):
         minimum=0.0,
         maximum=100.0,
     )
+    period_tolerance: float = parameter(
+        0.01,
+        "",
+        "share of the peak acceleration within which the motion has to repeat; on ground that changes under a "
+        "travelling roller, 0.05",
+        minimum=0.0001,
+        maximum=0.5,
+    )
 
     def __post_init__(self) -> None:
         super().__post_init__()

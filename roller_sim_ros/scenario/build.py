@@ -13,9 +13,22 @@ from roller_sim_ros.site import LaneSite, Position
 from roller_sim_ros.site.declaration import members
 from roller_sim_ros.soil_mechanics import machine_preset
 
-ELSEWHERE = ("machine.", "soil.", "exciter.kind", "exciter.tilt_rad", "recording.path")
-"""Parameters that a scenario says in sections of their own, or leaves to the run."""
-COMMANDED = ("exciter.vibrate", "exciter.frequency_hz", "exciter.amplitude_m")
+_ELSEWHERE = (
+    "machine.",
+    "soil.",
+    "exciter.kind",
+    "exciter.tilt_rad",
+    "exciter.vibrate",
+    "exciter.frequency_hz",
+    "exciter.amplitude_m",
+    "recording.",
+)
+"""How parameters begin that a scenario says in sections of their own, or leaves to the run."""
+
+
+def has_own_section(name: str) -> bool:
+    """Return whether a scenario says a parameter in a section of its own, or not at all."""
+    return name.startswith(_ELSEWHERE)
 
 
 def configuration_of(scenario: Scenario) -> Configuration:
@@ -28,9 +41,9 @@ def configuration_of(scenario: Scenario) -> Configuration:
     """
     for name, value in scenario.parameters.items():
         lookup(name, value)
-        if name.startswith(ELSEWHERE) or name in COMMANDED:
+        if has_own_section(name):
             raise ParameterError(
-                name, value, "has a section of its own in a scenario, or none at all"
+                name, value, "is said in another section of a scenario, or is the run's own"
             )
     configuration = Configuration().changed(
         {**_machine_values(scenario), **_exciter_values(scenario), **scenario.parameters}

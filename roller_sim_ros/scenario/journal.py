@@ -89,7 +89,10 @@ class Journal:
         self._samples = session.samples_per_revolution
         self._window = configuration.meter.window_revolutions
         self._truth = TruthMeter(
-            self._window, configuration.machine.static_load_n, session.samples_per_revolution
+            self._window,
+            configuration.machine.static_load_n,
+            session.samples_per_revolution,
+            configuration.meter.period_tolerance,
         )
         self._rows: list[tuple[float, ...]] = []
 

@@ -34,17 +34,12 @@ class SensorPart(Record):
     parameters: dict[str, Value] = declare("its parameters by name", default={}, free=True)
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class FaultPart(Window):
     """A fault and when it is active."""
 
-    id: str = declare("which fault of the catalogue", default="")
+    id: str = declare("which fault of the catalogue")
     parameters: dict[str, Value] = declare("its parameters by name", default={}, free=True)
-
-    def __post_init__(self) -> None:
-        super().__post_init__()
-        if not self.id:
-            raise ParameterError("id", self.id, "must be the id of a fault")
 
 
 @dataclass(frozen=True)

@@ -84,6 +84,19 @@ def test_gravity_and_bias_change_nothing(drum: Callable[..., Any]) -> None:
     assert found == [2, 2, 2]
 
 
+def test_a_wider_tolerance_takes_a_slow_change_for_a_repetition(drum: Callable[..., Any]) -> None:
+    # A motion of period 2 that grows by 1.5 % from one pair of revolutions to the next, as over a changing ground.
+    revolutions = drum(16, 2, 0.4).vertical.reshape(16, N)
+    growing = revolutions * np.repeat(1.015 ** np.arange(8), 2)[:, None]
+    found = []
+    for tolerance in (0.01, 0.05):
+        stream = PeriodWindow(16, tolerance=tolerance)
+        for revolution in growing:
+            stream.push(revolution)
+        found.append(stream.period())
+    assert found == [NO_PERIOD, 2]
+
+
 def test_repetitions_are_rows_of_a_period_oldest_first() -> None:
     stream = PeriodWindow(6)
     for index in range(9):
