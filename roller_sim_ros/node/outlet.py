@@ -39,11 +39,14 @@ class Outlet:
         Where the bytes go, too; the topics are registered there by their resolved names.
     publishers : dict
         By the names of the table.
+    unsent : int
+        Messages that the middleware refused to send; they are recorded all the same.
     """
 
     def __init__(self, node: Node, pacing: Pacing) -> None:
         self.trace: Recorder | None = None
         self.publishers: dict[str, Publisher[Any]] = {}
+        self.unsent = 0
         self._node = node
         try:
             for topic in topics.TOPICS:
@@ -57,7 +60,11 @@ class Outlet:
     def send(self, messages: Iterable[Message]) -> None:
         """Publish messages, in order, and hand them to the recording."""
         for message in messages:
-            self.publishers[message.topic].publish(message.data)
+            try:
+                self.publishers[message.topic].publish(message.data)
+            except RuntimeError:
+                # The middleware gives up where a reader or the machine is too slow for it.
+                self.unsent += 1
             if self.trace is not None:
                 now_ns = time.time_ns()
                 self.trace.put(self._names[message.topic], message.data, now_ns, now_ns)

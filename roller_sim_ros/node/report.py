@@ -87,6 +87,8 @@ class Report:
         None while the roller is not active.
     recent, total : LatenessSummary
         Lateness of the blocks since the last report and since the roller was activated.
+    unsent, recently_unsent : int
+        Messages that the middleware refused to send since the node was configured and since the last report.
     real_time_factor : float
         Simulated over real time since the last report; NaN when unknown.
     realtime : tuple of str
@@ -105,6 +107,8 @@ class Report:
     drive: Drive | None
     recent: LatenessSummary
     total: LatenessSummary
+    unsent: int
+    recently_unsent: int
     real_time_factor: float
     realtime: tuple[str, ...]
     recording: RecordingReport | None
@@ -125,6 +129,8 @@ def _pacing(report: Report) -> Diagnostic:
         level, message = Level.OK, "not active"
     elif not drive.finite:
         level, message = Level.ERROR, "the motion is no number any more: deactivate and activate"
+    elif report.recently_unsent:
+        level, message = Level.ERROR, f"{report.recently_unsent} messages could not be sent"
     elif drive.unsettled_steps:
         level, message = Level.WARN, f"{drive.unsettled_steps} steps did not settle"
     elif recent.late:
@@ -140,6 +146,7 @@ def _pacing(report: Report) -> Diagnostic:
             "lateness_max_s": recent.max_s,
             "late_blocks": report.total.late,
             "blocks": report.total.blocks,
+            "unsent_messages": report.unsent,
             "samples": drive.samples if drive else 0,
             "real_time_factor": report.real_time_factor,
             "unsettled_steps": drive.unsettled_steps if drive else 0,

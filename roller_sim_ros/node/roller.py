@@ -66,6 +66,7 @@ class Roller:
         self._pacer: Pacer | None = None
         self._input = CommandInput()
         self._reported = (0.0, 0.0)
+        self._unsent = 0
 
     @property
     def running(self) -> bool:
@@ -206,12 +207,17 @@ class Roller:
             self._reported = (after_s, now_s)
             if now_s > then_s:
                 factor = (after_s - before_s) / (now_s - then_s)
+        unsent = self._outlet.unsent if self._outlet else 0
+        if unsent > self._unsent:
+            self._node.get_logger().error(f"{unsent - self._unsent} messages could not be sent")
         lateness = pacer.lateness if pacer else Lateness()
         report = Report(
             node=self._node.get_fully_qualified_name(),
             drive=_drive(pacer.emulator) if pacer else None,
             recent=lateness.recent(),
             total=lateness.total(),
+            unsent=unsent,
+            recently_unsent=unsent - self._unsent,
             real_time_factor=factor,
             realtime=tuple(pacer.realtime) if pacer else (),
             recording=recording.report() if recording else None,
@@ -219,6 +225,7 @@ class Roller:
             refusal=self._input.reason,
             refusing=self._input.refusing,
         )
+        self._unsent = unsent
         if report.drive is not None:
             self.last_report = report
         if self._outlet is not None:
@@ -252,6 +259,7 @@ class Roller:
         if self._outlet is not None:
             self._outlet.destroy()
             self._outlet = None
+            self._unsent = 0
 
     def _on_command(self, data: bytes, received_ns: int, published_ns: int) -> None:
         if self._recording is not None:

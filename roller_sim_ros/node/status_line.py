@@ -23,6 +23,8 @@ def status_line(report: Report) -> str:
         f"×{report.real_time_factor:5.3f}  late p99 {report.recent.p99_s * 1e3:5.2f} ms, "
         f"{report.total.late} blocks"
     )
+    if report.unsent:
+        line += f", {report.unsent} messages not sent"
     return line + _recording(report.recording)
 
 
@@ -36,6 +38,7 @@ def summary(roller: Roller) -> str:
         f"ran {report.drive.simulated_s:.1f} s: {report.drive.samples} samples in {total.blocks} blocks, "
         f"{total.late} late; lateness p50 {total.p50_s * 1e3:.2f}, p99 {total.p99_s * 1e3:.2f}, "
         f"p99.9 {total.p999_s * 1e3:.2f}, max {total.max_s * 1e3:.2f} ms; {report.refused} commands refused"
+        + (f", {report.unsent} messages not sent" if report.unsent else "")
         + _recorded(roller.last_recording)
     )
 
