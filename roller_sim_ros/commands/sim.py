@@ -10,6 +10,7 @@ from pathlib import Path
 
 from roller_sim_ros.commands.flags import add_parameter_flags, given_values
 from roller_sim_ros.errors import RollerSimError
+from roller_sim_ros.node.signals import handled
 from roller_sim_ros.parameters.file import read_parameters
 
 ROS_LEVEL = "ros__parameters"
@@ -40,7 +41,7 @@ def main(argv: list[str] | None = None) -> int:
     Returns
     -------
     int
-        0 after Ctrl-C or SIGTERM; 1 when the node could not start.
+        0 after Ctrl-C or SIGTERM, also while it starts; 1 when the node could not start.
 
     Raises
     ------
@@ -56,17 +57,23 @@ def main(argv: list[str] | None = None) -> int:
         # Before the others, so that what is set by -p holds over the file.
         ros = [*_from_file(arguments.params), *ros]
     _check_files(ros)
-    # What takes long to import, or needs ROS 2, comes after --help and wrong arguments.
-    from roller_sim_ros.node.process import run_node
-    from roller_sim_ros.node.status_line import status_line, summary
+    with handled() as signals:
+        try:
+            # What takes long to import, or needs ROS 2, comes after --help and wrong arguments.
+            from roller_sim_ros.node.process import run_node
+            from roller_sim_ros.node.status_line import status_line, summary
 
-    return run_node(
-        ros,
-        namespace=arguments.namespace,
-        overrides=overrides,
-        on_report=lambda report: print(status_line(report), flush=True),
-        on_end=lambda roller: print(summary(roller), flush=True),
-    )
+            return run_node(
+                ros,
+                signals,
+                namespace=arguments.namespace,
+                overrides=overrides,
+                on_report=lambda report: print(status_line(report), flush=True),
+                on_end=lambda roller: print(summary(roller), flush=True),
+            )
+        except KeyboardInterrupt:
+            print("stopped before the roller ran", flush=True)
+            return 0
 
 
 def _split(arguments: list[str]) -> tuple[list[str], list[str]]:

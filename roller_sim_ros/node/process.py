@@ -1,12 +1,9 @@
-"""The process around the node: start, executor loop, signals, orderly end."""
+"""The process around the node: start, executor loop, orderly end."""
 
 from __future__ import annotations
 
-import signal
 import sys
-from collections.abc import Callable, Iterator, Mapping, Sequence
-from contextlib import contextmanager
-from types import FrameType
+from collections.abc import Callable, Mapping, Sequence
 
 import rclpy
 from rclpy.exceptions import InvalidNamespaceException
@@ -19,6 +16,7 @@ from roller_sim_ros.errors import RollerSimError
 from roller_sim_ros.node.report import Report
 from roller_sim_ros.node.roller import Roller
 from roller_sim_ros.node.roller_node import RollerNode
+from roller_sim_ros.node.signals import Signals
 from roller_sim_ros.parameters import Value
 
 SPIN_S = 0.1
@@ -27,35 +25,10 @@ SPIN_S = 0.1
 SWITCH_INTERVAL_S = 0.5e-3
 """How long the executor's thread may keep the interpreter from the pacing thread."""
 
-_SIGNALS = (signal.SIGINT, signal.SIGTERM)
-
-
-class _Signals:
-    """SIGINT and SIGTERM: an interruption while the node starts, a request once it runs."""
-
-    def __init__(self) -> None:
-        self.stop = False
-        self.running = False
-
-    def __call__(self, _number: int, _frame: FrameType | None) -> None:
-        self.stop = True
-        if not self.running:
-            raise KeyboardInterrupt
-
-
-@contextmanager
-def _handled() -> Iterator[_Signals]:
-    signals = _Signals()
-    before = {number: signal.signal(number, signals) for number in _SIGNALS}
-    try:
-        yield signals
-    finally:
-        for number, handler in before.items():
-            signal.signal(number, handler)
-
 
 def run_node(
     ros_arguments: Sequence[str],
+    signals: Signals,
     *,
     namespace: str = "",
     overrides: Mapping[str, Value] | None = None,
@@ -68,6 +41,8 @@ def run_node(
     ----------
     ros_arguments : sequence of str
         ``--ros-args`` and what follows.
+    signals : Signals
+        What ends the node.
     namespace : str
         Namespace of the node.
     overrides : mapping
@@ -84,25 +59,24 @@ def run_node(
     ------
     RollerSimError
         If an argument or a parameter is refused, or the roller fails while it runs.
+    KeyboardInterrupt
+        If a signal came before it ran.
     """
     sys.setswitchinterval(SWITCH_INTERVAL_S)
     node: RollerNode | None = None
-    with _handled() as signals:
-        try:
-            _initialise(ros_arguments)
-            _check_namespace(namespace)
-            node = RollerNode(namespace=namespace, overrides=overrides)
-            node.on_report = on_report
-            if node.autostart and not _autostart(node):
-                return 1
-            signals.running = True
-            _spin(node, signals)
-        except KeyboardInterrupt:
-            pass  # while it started: there is nothing to be told
-        finally:
-            signals.running = True
-            _end(node)
-    if node is not None and on_end is not None:
+    try:
+        _initialise(ros_arguments)
+        _check_namespace(namespace)
+        node = RollerNode(namespace=namespace, overrides=overrides)
+        node.on_report = on_report
+        if node.autostart and not _autostart(node):
+            return 1
+        signals.running = True
+        _spin(node, signals)
+    finally:
+        signals.running = True
+        _end(node)
+    if on_end is not None:
         on_end(node.roller)
     return 0
 
@@ -128,7 +102,7 @@ def _autostart(node: RollerNode) -> bool:
     return node.trigger_configure() == success and node.trigger_activate() == success
 
 
-def _spin(node: RollerNode, signals: _Signals) -> None:
+def _spin(node: RollerNode, signals: Signals) -> None:
     executor = SingleThreadedExecutor()
     executor.add_node(node)
     try:
