@@ -23,7 +23,6 @@ from typing import Any
 
 import numpy as np
 import numpy.typing as npt
-from scipy.optimize import linprog
 
 from roller_sim_ros.half_space.compliance import normalised_compliance
 from roller_sim_ros.half_space.point_load import ComplexArray, FloatArray
@@ -138,6 +137,8 @@ def _minimax(
 
     `conditions` are pairs of rows and bounds, rows x <= bounds; `equation` a row and its value.
     """
+    from scipy.optimize import linprog  # takes as long as all else at start-up; only a fit needs it
+
     rows = (_EDGES[:, np.newaxis, np.newaxis] * terms).real.reshape(-1, terms.shape[1])
     rows = np.hstack([rows, -np.tile(target.factor * size, _EDGES.size)[:, np.newaxis]])
     bounds = np.outer(_EDGES, aim).real.ravel() + np.tile(target.slack * size, _EDGES.size)

@@ -84,8 +84,6 @@ def _tabulate(aspect_ratio: float, poisson_ratio: float) -> StepResponse:
     tau = spacing * np.arange(TABLE_INTERVALS + 2, dtype=np.float64)
     step, ramp = step_and_ramp(tau, aspect_ratio, poisson_ratio)
     offset = float(tau[-1] - ramp[-1])
-    step[-2:] = 1.0  # the two nodes at and beyond the memory
-    ramp[-2:] = tau[-2:] - offset
     for table in (step, ramp):
         table.flags.writeable = False
     return StepResponse(aspect_ratio, poisson_ratio, spacing, span, offset, step, ramp)

@@ -239,4 +239,8 @@ def step_and_ramp(
                 part_step, part_ramp = _antiderivatives(side, u, time, term)
                 step -= share * (root.amplitude * part_step).real
                 ramp -= share * (root.amplitude * part_ramp).real
-    return np.where(positive, step / whole, 0.0), np.where(positive, ramp / whole, 0.0)
+    # Outside the memory both are known without the rounding of large terms that cancel.
+    late = tau >= memory(aspect_ratio, poisson_ratio)
+    step = np.where(late, 1.0, np.where(positive, step / whole, 0.0))
+    ramp = np.where(positive, ramp / whole, 0.0)
+    return step, np.where(late, tau + fronts.after_rayleigh / whole, ramp)

@@ -142,8 +142,11 @@ def test_step_rises_from_zero_to_one_and_never_falls(aspect_ratio, poisson_ratio
     tau = np.linspace(0.0, 1.02 * memory(aspect_ratio, poisson_ratio), 3001)
     step, ramp = step_and_ramp(tau, aspect_ratio, poisson_ratio)
     assert step[0] == ramp[0] == 0.0
-    assert np.all(np.diff(step) >= -1e-11)
-    np.testing.assert_allclose(step[tau >= memory(aspect_ratio, poisson_ratio)], 1.0, atol=1e-11)
+    assert np.all(np.diff(step) >= -1e-10)  # rounding, where alpha is large
+    inside = tau < memory(aspect_ratio, poisson_ratio)
+    assert np.all(step[~inside] == 1.0)
+    assert step[inside][-1] == pytest.approx(1.0, abs=5e-3)
+    np.testing.assert_allclose(np.diff(ramp[~inside]), tau[1], atol=1e-12)
 
 
 @given(ASPECT_RATIOS, POISSON_RATIOS)
