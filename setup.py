@@ -34,6 +34,8 @@ setup(
         shared("msg", "*.msg"),
         shared("config", "*.yaml"),
         shared("launch", "*.launch.py"),
+        shared("scenarios", "*.yaml"),
+        shared("scenarios", "*.schema.json"),
     ],
     install_requires=[line for line in requirements if line and not line.startswith("#")],
     entry_points={"console_scripts": ["roller-sim = roller_sim_ros.commands:main"]},

@@ -8,7 +8,15 @@ from collections.abc import Mapping
 from roller_sim_ros.meters import CompactionMeter, MeterValue, TruthMeter, TruthValue
 from roller_sim_ros.parameters import SAMPLES_PER_REVOLUTION, Configuration, ParameterError, Value
 from roller_sim_ros.sensors import IdealAccelerometer, Reading, Sensor
-from roller_sim_ros.session import Block, CommandRefused, ExciterStatus, Refusal, Session
+from roller_sim_ros.session import (
+    Block,
+    CommandRefused,
+    ExciterStatus,
+    Programme,
+    Refusal,
+    Session,
+)
+from roller_sim_ros.site import Site
 from roller_sim_ros.wire import messages
 from roller_sim_ros.wire.imu import imu
 from roller_sim_ros.wire.messages import Message
@@ -30,6 +38,10 @@ class Emulator:
         Stamp of the first sample, ns since the epoch.
     run_up : bool
         Start the exciter from standstill; otherwise at once at full frequency and amplitude.
+    site : Site, optional
+        Where the roller is and what ground is there; the configured ground everywhere when not given.
+    programme : Programme, optional
+        What the exciter is to do while nobody commands it.
 
     Attributes
     ----------
@@ -57,7 +69,13 @@ class Emulator:
     """
 
     def __init__(
-        self, configuration: Configuration, *, start_ns: int, run_up: bool = False
+        self,
+        configuration: Configuration,
+        *,
+        start_ns: int,
+        run_up: bool = False,
+        site: Site | None = None,
+        programme: Programme | None = None,
     ) -> None:
         samples = configuration.sampling.samples_per_revolution
         if samples != SAMPLES_PER_REVOLUTION:
@@ -66,15 +84,23 @@ class Emulator:
                 samples,
                 f"messages and traces need {SAMPLES_PER_REVOLUTION} samples per revolution",
             )
-        self.session = Session(configuration, run_up=run_up)
+        self.session = Session(configuration, run_up=run_up, site=site, programme=programme)
         self.start_ns = start_ns
         self.block: Block | None = None
         self.meter_value: MeterValue | None = None
         meter = configuration.meter
         self._sensor: Sensor = IdealAccelerometer()
         self._reading: Reading | None = None
-        self._meter = CompactionMeter(meter.window_revolutions, meter.noise_floor_m_s2)
-        self._truth = TruthMeter(meter.window_revolutions, configuration.machine.static_load_n)
+        self._meter = CompactionMeter(
+            meter.window_revolutions,
+            meter.noise_floor_m_s2,
+            period_tolerance=meter.period_tolerance,
+        )
+        self._truth = TruthMeter(
+            meter.window_revolutions,
+            configuration.machine.static_load_n,
+            period_tolerance=meter.period_tolerance,
+        )
         self._status: ExciterStatus | None = None
         self._refusal = (Refusal.NONE, "")
         self._refusal_told = True
@@ -96,9 +122,9 @@ class Emulator:
     def advance(self, samples: int) -> list[Message]:
         """Step over the next samples and return what is to be published, in that order.
 
-        ``drum/acceleration`` and ``truth``; where a revolution ends ``meter`` and ``cmv``; where one begins
-        ``applied`` for all that took effect; ``exciter/state`` on change and 10 times a simulated second;
-        ``machine`` and ``soil`` at the start and on change.
+        ``drum/acceleration`` and ``truth``; where a revolution ends ``meter``, ``cmv`` and
+        ``site/state``; where one begins ``applied`` for all that took effect; ``exciter/state`` on change and 10
+        times a simulated second; ``machine`` and ``soil`` at the start and on change.
 
         Parameters
         ----------
@@ -122,6 +148,8 @@ class Emulator:
             self._add_meter(out, block, reading)
             begins = block.first_sample % SAMPLES_PER_REVOLUTION == 0
             stamp_ns = messages.sample_stamp(block, 0, self.start_ns)
+            if (block.first_sample + len(block)) % SAMPLES_PER_REVOLUTION == 0:
+                out.append(self._site_state(block, truth))
             if begins:
                 out += [messages.applied_change(it, stamp_ns) for it in self.session.applied()]
             self._add_state(out, block, stamp_ns, begins=begins)
@@ -154,6 +182,22 @@ class Emulator:
         except CommandRefused as error:
             self.refuse(error.code, str(error))
             raise
+
+    def command_travel(self, speed_m_s: float) -> None:
+        """Command the travel speed, forward positive; takes effect at the next multiple of 128 samples.
+
+        Raises
+        ------
+        CommandRefused
+            If the speed is refused; the roller carries on as before.
+        """
+        with self._lock:
+            self.session.command_travel(speed_m_s)
+
+    def release(self) -> None:
+        """Hand exciter and travel back to the scenario; without one the roller stops travelling."""
+        with self._lock:
+            self.session.release()
 
     def change(self, values: Mapping[str, Value]) -> None:
         """Change live parameters; takes effect at the next multiple of 128 samples.
@@ -199,6 +243,16 @@ class Emulator:
             stamp_ns = messages.sample_stamp(block, index, self.start_ns)
             out.append(messages.compaction_meter(value, stamp_ns))
             out.append(messages.cmv(value, stamp_ns))
+
+    def _site_state(self, block: Block, truth: TruthValue) -> Message:
+        masters = self.session.masters
+        return messages.site_state(
+            block,
+            self.session.site.position,
+            truth,
+            (masters.exciter, masters.travel),
+            self.start_ns,
+        )
 
     def _add_state(self, out: list[Message], block: Block, stamp_ns: int, *, begins: bool) -> None:
         """Add ``exciter/state`` if something changed or a tenth of a second began since the last block."""

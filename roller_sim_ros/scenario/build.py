@@ -1,14 +1,15 @@
-"""What a scenario makes: configuration, site and programme, together a session."""
+"""What a scenario makes: configuration, site and programme, with which a session begins."""
 
 from __future__ import annotations
 
 import math
 from dataclasses import replace
+from typing import NamedTuple
 
 from roller_sim_ros.parameters import Configuration, ParameterError, Value, lookup
 from roller_sim_ros.scenario.programme import ExciterProgramme
 from roller_sim_ros.scenario.scenario import Scenario
-from roller_sim_ros.session import Moment, Session
+from roller_sim_ros.session import Moment
 from roller_sim_ros.site import LaneSite, Position
 from roller_sim_ros.site.declaration import members
 from roller_sim_ros.soil_mechanics import machine_preset
@@ -86,13 +87,28 @@ def programme_of(scenario: Scenario) -> ExciterProgramme:
     return ExciterProgramme(base.exciter, scenario.exciter.programme)
 
 
-def session_of(scenario: Scenario) -> Session:
-    """Return a session at the start of the scenario."""
-    return Session(
+class Start(NamedTuple):
+    """What a session, or an emulator, of a scenario is made of: its keyword arguments."""
+
+    configuration: Configuration
+    run_up: bool
+    site: LaneSite
+    programme: ExciterProgramme
+
+
+def start_of(scenario: Scenario) -> Start:
+    """Return all that a run of the scenario begins with, anew each time.
+
+    Raises
+    ------
+    ParameterError
+        If the scenario cannot be run.
+    """
+    return Start(
         configuration_of(scenario),
-        run_up=scenario.exciter.run_up,
-        site=site_of(scenario),
-        programme=programme_of(scenario),
+        scenario.exciter.run_up,
+        site_of(scenario),
+        programme_of(scenario),
     )
 
 

@@ -17,7 +17,15 @@ import numpy as np
 from roller_sim_ros.meters import MeterValue, TruthValue
 from roller_sim_ros.parameters import Configuration, Value
 from roller_sim_ros.sensors import Reading
-from roller_sim_ros.session import Applied, Block, ExciterCommand, ExciterStatus, Refusal
+from roller_sim_ros.session import (
+    Applied,
+    Block,
+    ExciterCommand,
+    ExciterStatus,
+    Master,
+    Refusal,
+)
+from roller_sim_ros.site import Position
 from roller_sim_ros.wire import topics
 from roller_sim_ros.wire.types import encode, message_class
 
@@ -191,6 +199,7 @@ def exciter_state(
         status.applied_sample,
         int(refusal),
         refusal_reason,
+        int(status.master),
     )
 
 
@@ -214,7 +223,56 @@ def applied_change(change: Applied, stamp_ns: int) -> Message:
     else:
         number = float(change.value)
     return _message(
-        topics.APPLIED, stamp_ns, _header(stamp_ns), change.sample, change.name, number, text
+        topics.APPLIED,
+        stamp_ns,
+        _header(stamp_ns),
+        change.sample,
+        change.name,
+        number,
+        text,
+        int(change.master),
+    )
+
+
+def site_state(
+    block: Block,
+    position: Position,
+    truth: TruthValue,
+    masters: tuple[Master, Master],
+    start_ns: int,
+) -> Message:
+    """Return ``site/state`` of the revolution that ends with a block.
+
+    Parameters
+    ----------
+    block : Block
+        Its last one.
+    position : Position
+        Where the revolution began.
+    truth : TruthValue
+        At its end.
+    masters : tuple of Master
+        Whom exciter and travel obeyed.
+    start_ns : int
+        Stamp of the first sample of the run.
+    """
+    stamp_ns = sample_stamp(block, len(block) - 1, start_ns)
+    exciter_master, travel_master = masters
+    return _message(
+        topics.SITE_STATE,
+        stamp_ns,
+        _header(stamp_ns),
+        block.first_sample + len(block) - 1,
+        position.chainage_m,
+        position.pass_number,
+        position.speed_m_s,
+        position.finished,
+        block.shear_modulus_pa,
+        block.plastic_parameter_m,
+        truth.cmv,
+        int(truth.mode),
+        int(exciter_master),
+        int(travel_master),
     )
 
 

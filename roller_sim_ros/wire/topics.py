@@ -138,6 +138,14 @@ APPLIED = Topic(
     _fixed(100),
     "on change",
 )
+SITE_STATE = Topic(
+    "site/state",
+    "roller_sim_ros/msg/SiteState",
+    Direction.PUBLISHED,
+    "chainage, m, pass and speed, m/s; true G, Pa, p, m, CMV and mode there; who is master",
+    _REVOLUTIONS,
+    "per revolution",
+)
 MACHINE = Topic(
     "machine",
     "diagnostic_msgs/msg/DiagnosticStatus",
@@ -189,6 +197,7 @@ TOPICS: tuple[Topic, ...] = (
     EXCITER_STATE,
     TRUTH,
     APPLIED,
+    SITE_STATE,
     MACHINE,
     SOIL,
     DIAGNOSTICS,

@@ -158,7 +158,7 @@ def test_version_is_the_same_everywhere() -> None:
 
 
 def test_messages_are_generated_and_are_those_of_the_sources() -> None:
-    assert len(MESSAGES) == 6
+    assert len(MESSAGES) == 7
     generated = importlib.import_module("roller_sim_ros.msg")
     for name in MESSAGES:
         text = (ROOT / "msg" / f"{name}.msg").read_text(encoding="utf-8")
@@ -182,12 +182,24 @@ def test_every_field_of_the_messages_is_explained() -> None:
 def test_constants_of_the_messages_agree_with_each_other_and_with_the_code() -> None:
     from roller_sim_ros.meters.mode import Mode
     from roller_sim_ros.meters.status import Status
-    from roller_sim_ros.msg import CompactionMeter, DrumAcceleration, DrumSoilState, ExciterState
+    from roller_sim_ros.msg import (
+        AppliedChange,
+        CompactionMeter,
+        DrumAcceleration,
+        DrumSoilState,
+        ExciterState,
+        SiteState,
+    )
+    from roller_sim_ros.session import Master
     from roller_sim_ros.session.block import AIR, LOADING, UNLOADING
 
     for mode in Mode:
         name = "MODE_UNKNOWN" if mode is Mode.UNKNOWN else mode.name
-        assert getattr(CompactionMeter, name) == getattr(DrumSoilState, name) == mode.value
+        for message in (CompactionMeter, DrumSoilState, SiteState):
+            assert getattr(message, name) == mode.value
+    for master in Master:
+        for message in (AppliedChange, ExciterState, SiteState):
+            assert getattr(message, f"MASTER_{master.name}") == master.value
     for status in Status:
         if status:
             assert getattr(CompactionMeter, str(status.name)) == status.value
