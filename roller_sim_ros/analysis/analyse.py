@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Mapping
+from functools import partial
 from itertools import islice
 from pathlib import Path
 from typing import Any
@@ -14,6 +16,7 @@ from roller_sim_ros.analysis.comparison import Comparison, Matcher
 from roller_sim_ros.analysis.continuity import Continuity
 from roller_sim_ros.analysis.excerpt import ExcerptKeeper
 from roller_sim_ros.analysis.imu import PROBE_SAMPLES, ImuRate, ImuReader, find_rate
+from roller_sim_ros.analysis.machine import machine_facts
 from roller_sim_ros.analysis.result import Analysis, Options
 from roller_sim_ros.analysis.samples import (
     IMU_TYPE,
@@ -86,22 +89,29 @@ class _Pass:
         self._bag = bag
         self._selection = selection
         rate = None
+        facts = machine_facts(bag, selection)
         count = options.samples_per_revolution or int(self._parameter(SAMPLES))
         self._reader: AccelerationReader | ImuReader = AccelerationReader()
         if selection.source.type == IMU_TYPE:
             rate = self._imu_rate(options.excitation_hz)
             count = rate.samples_per_revolution
             self._reader = ImuReader(rate)
+            # Without the eccentric's phase the machine is of no use.
+            facts = None
         window = options.window_revolutions or self._recorded_window()
         floor = options.noise_floor_m_s2
         if floor is None:
             floor = self._parameter(NOISE_FLOOR)
-        self._meter = CompactionMeter(window, floor, count)
+        self._meter = CompactionMeter(
+            window, floor, count, drum=None if facts is None else facts.drum
+        )
+        self._amplitude_m = math.nan if facts is None else facts.amplitude_m
         self._kept = ExcerptKeeper(count)
         self._clean = 0
         self._count = count
         self._next_stamp: tuple[int, int] | None = None
         self._recorded_cmv: float | None = None
+        self._recorded_sample: int | None = None
         self._last: MeterValue | None = None
         self._samples_per_turn = 0.0
         self._other_window = 0
@@ -117,6 +127,7 @@ class _Pass:
             meter=self._comparison(RECORDED, selection.meter),
             truth=self._comparison(TRUE, selection.truth),
             cmv=Comparison() if selection.cmv else None,
+            further=Comparison() if selection.further else None,
         )
 
     def _comparison(self, kind: str, topic: str) -> Comparison | None:
@@ -157,6 +168,11 @@ class _Pass:
             self._selection.meter: self._on_meter,
             self._selection.cmv: self._on_cmv,
             self._selection.truth: self._on_truth,
+            self._selection.exciter: self._on_exciter,
+            **{
+                topic: partial(self._on_further, name)
+                for topic, name in self._selection.further.items()
+            },
         }
         for number, received in enumerate(self._bag.messages(self._selection.names)):
             result.messages[received.topic] = result.messages.get(received.topic, 0) + 1
@@ -204,6 +220,7 @@ class _Pass:
             piece.excitation_hz,
             piece.phase_rad,
             piece.phase_increment_rad,
+            self._amplitude_m,
         ):
             self._on_value(value, piece)
 
@@ -225,6 +242,7 @@ class _Pass:
 
     def _on_meter(self, message: Any) -> None:
         self._recorded_cmv = float(message.cmv)
+        self._recorded_sample = int(message.last_sample)
         if message.window_revolutions != self.result.window_revolutions:
             self._other_window = int(message.window_revolutions)
         matcher = self._matchers[RECORDED]
@@ -262,6 +280,22 @@ class _Pass:
             comparison.unmatched += 1
         else:
             comparison.add({"cmv": float(message.data)}, {"cmv": before})
+
+    def _on_exciter(self, message: Any) -> None:
+        self._amplitude_m = float(message.amplitude)
+
+    def _on_further(self, name: str, message: Any) -> None:
+        """Compare with the last value computed: such a message comes right after ``meter`` and its samples."""
+        comparison, last = self.result.further, self._last
+        if comparison is None:
+            return
+        recorded = float(message.data)
+        if last is None or self._recorded_sample not in (None, last.last_sample):
+            comparison.unmatched += 1
+        elif math.isnan(recorded) or not last.status & (Status.WINDOW_FILLING | Status.GAP):
+            comparison.add({name: recorded}, last.further)
+        else:
+            comparison.window_incomplete += 1
 
     def _note(self, kind: str, found: tuple[int, Mapping[str, float]] | None) -> None:
         """Write a matched value into the history."""

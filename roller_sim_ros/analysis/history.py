@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from roller_sim_ros.meters import MeterValue
+from roller_sim_ros.meters.registry import FURTHER, column
 
 WHOLE_NUMBERS = ("last_sample", "period", "mode", "status")
 NUMBERS = (
@@ -20,14 +21,23 @@ NUMBERS = (
     "fundamental_amplitude_m_s2",
     "fundamental_phase_rad",
 )
+FURTHER_COLUMNS = {meter.name: column(meter) for meter in FURTHER}
+"""Columns of the further meter values by their names."""
+
 BESIDE = ("recorded_cmv", "recorded_rmv", "true_cmv", "true_rmv")
 """What was recorded for the same revolution, NaN where nothing was."""
 
-COLUMNS = (*WHOLE_NUMBERS[:1], *NUMBERS, *WHOLE_NUMBERS[1:], *BESIDE)
+COLUMNS = (
+    *WHOLE_NUMBERS[:1],
+    *NUMBERS,
+    *FURTHER_COLUMNS.values(),
+    *WHOLE_NUMBERS[1:],
+    *BESIDE,
+)
 
 
 class History:
-    """Rows of meter values: about 120 bytes each, 12 MB for an hour at 28 Hz."""
+    """Rows of meter values: about 150 bytes each, 15 MB for an hour at 28 Hz."""
 
     def __init__(self) -> None:
         self._columns: dict[str, array[int] | array[float]] = {
@@ -59,9 +69,10 @@ class History:
             "period": value.period,
             "mode": int(value.mode),
             "status": int(value.status),
+            **{FURTHER_COLUMNS[name]: number for name, number in value.further.items()},
         }
-        for name, column in self._columns.items():
-            column.append(row.get(name, math.nan))  # type: ignore[arg-type]
+        for name, entries in self._columns.items():
+            entries.append(row.get(name, math.nan))  # type: ignore[arg-type]
         return len(self) - 1
 
     def note(self, row: int, beside: Mapping[str, float]) -> None:

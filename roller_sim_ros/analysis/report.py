@@ -17,9 +17,12 @@ from roller_sim_ros.analysis.samples import NANOSECONDS
 from roller_sim_ros.meters import Mode, Status
 from roller_sim_ros.meters.harmonics import order_amplitudes
 from roller_sim_ros.meters.period import period
-from roller_sim_ros.meters.registry import ORDERS, evaluate
+from roller_sim_ros.meters.registry import FURTHER, ORDERS, column, evaluate
 from roller_sim_ros.parameters import GRAVITY_M_S2
 from roller_sim_ros.session.block import AIR
+
+_MEGA = {"Pa": (1e6, "MPa"), "N/m": (1e6, "MN/m")}
+"""Units that are shown in millions."""
 
 
 def as_object(analysis: Analysis) -> dict[str, Any]:
@@ -59,6 +62,7 @@ def as_object(analysis: Analysis) -> dict[str, Any]:
         },
         "cmv": _range(history.floats("cmv")),
         "rmv": _range(history.floats("rmv")),
+        **{column(meter): _range(history.floats(column(meter))) for meter in FURTHER},
         "periods": _periods(history.integers("period")[known], history.integers("mode")[known]),
         "modes": {
             Mode(int(number)).label: count
@@ -67,6 +71,7 @@ def as_object(analysis: Analysis) -> dict[str, Any]:
         "settled": None if analysis.excerpt is None else _settled(analysis),
         "recorded_meter": _compared(analysis.meter),
         "recorded_cmv": _compared(analysis.cmv),
+        "recorded_further": _compared(analysis.further),
         "truth": _compared(analysis.truth),
         "warnings": analysis.warnings,
     }
@@ -169,6 +174,7 @@ def as_table(report: Mapping[str, Any]) -> str:
         ("meter values", _values(report)),
         ("CMV", _spread(report["cmv"])),
         ("RMV", _spread(report["rmv"])),
+        *((meter.label, _spread(report[column(meter)], meter.unit)) for meter in FURTHER),
         ("mode", _shares(report["modes"], report["values_known"])),
         ("period", _shares(report["periods"], report["values_known"])),
     ]
@@ -177,6 +183,7 @@ def as_table(report: Mapping[str, Any]) -> str:
     for name, title in (
         ("recorded_meter", "recorded meter"),
         ("recorded_cmv", "recorded CMV"),
+        ("recorded_further", "other values"),
         ("truth", "truth"),
     ):
         if report[name] is not None:
@@ -215,13 +222,14 @@ def _values(report: Mapping[str, Any]) -> str:
     return f"{text} ({reasons})" if reasons else text
 
 
-def _spread(values: Mapping[str, float] | None) -> str:
+def _spread(values: Mapping[str, float] | None, unit: str = "") -> str:
     if values is None:
         return "unknown"
-    return (
-        f"last {values['last']:.2f}, median {values['median']:.2f}, "
-        f"{values['min']:.2f} to {values['max']:.2f}"
+    scale, shown = _MEGA.get(unit, (1.0, unit))
+    last, median, low, high = (
+        f"{values[name] / scale:.2f}" for name in ("last", "median", "min", "max")
     )
+    return f"last {last}, median {median}, {low} to {high} {shown}".rstrip()
 
 
 def _shares(counts: Mapping[str, int], total: int) -> str:

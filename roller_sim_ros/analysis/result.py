@@ -73,6 +73,8 @@ class Analysis:
     cmv : Comparison or None
         The plain CMV topic against the meter message before it, or against the values computed anew when
         no meter was recorded.
+    further : Comparison or None
+        Further meter values, each recorded on a topic of its own, against those computed anew.
     excerpt : Excerpt or None
         The last settled revolutions.
     specific_force : bool
@@ -96,6 +98,7 @@ class Analysis:
     meter: Comparison | None = None
     truth: Comparison | None = None
     cmv: Comparison | None = None
+    further: Comparison | None = None
     excerpt: Excerpt | None = None
     specific_force: bool = False
     warnings: list[str] = field(default_factory=list)

@@ -14,6 +14,8 @@ from roller_sim_ros.analysis.bag import BagError
 ACCELERATION_TYPE = "roller_sim_ros/msg/DrumAcceleration"
 METER_TYPE = "roller_sim_ros/msg/CompactionMeter"
 TRUTH_TYPE = "roller_sim_ros/msg/DrumSoilState"
+EXCITER_TYPE = "roller_sim_ros/msg/ExciterState"
+FACTS_TYPE = "diagnostic_msgs/msg/DiagnosticStatus"
 IMU_TYPE = "sensor_msgs/msg/Imu"
 NUMBER_TYPE = "std_msgs/msg/Float64"
 

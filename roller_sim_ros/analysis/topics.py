@@ -3,17 +3,20 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 from roller_sim_ros.analysis.bag import BagError, Topic
 from roller_sim_ros.analysis.samples import (
     ACCELERATION_TYPE,
+    EXCITER_TYPE,
+    FACTS_TYPE,
     IMU_TYPE,
     METER_TYPE,
     NUMBER_TYPE,
     TRUTH_TYPE,
 )
+from roller_sim_ros.meters.registry import FURTHER
 
 _SOURCES = (ACCELERATION_TYPE, IMU_TYPE)
 
@@ -28,17 +31,25 @@ class Selection:
         DrumAcceleration or Imu.
     meter, cmv, truth : str
         Topics with recorded meter values, CMV alone, and the truth.
+    exciter, machine : str
+        Topics with what the exciter does, and with the machine's parameters.
+    further : dict
+        {topic: name} of further meter values, one on each topic.
     """
 
     source: Topic
     meter: str
     cmv: str
     truth: str
+    exciter: str = ""
+    machine: str = ""
+    further: Mapping[str, str] = field(default_factory=dict)
 
     @property
     def names(self) -> set[str]:
-        """All of them."""
-        return {name for name in (self.source.name, self.meter, self.cmv, self.truth) if name}
+        """All that are read from front to back."""
+        found = (self.source.name, self.meter, self.cmv, self.truth, self.exciter, *self.further)
+        return {name for name in found if name}
 
 
 def select(
@@ -71,14 +82,21 @@ def select(
         meter=_beside(topics, METER_TYPE, f"{base}/meter"),
         cmv=_named(topics, NUMBER_TYPE, f"{base}/cmv"),
         truth=_beside(topics, TRUTH_TYPE, f"{base}/truth"),
+        exciter=_beside(topics, EXCITER_TYPE, f"{base}/exciter/state"),
+        machine=_named(topics, FACTS_TYPE, f"{base}/machine"),
+        further={
+            name: item.name
+            for item in FURTHER
+            if (name := _named(topics, NUMBER_TYPE, f"{base}/meters/{item.name}"))
+        },
     )
     if meter is None:
         return found
     given = _find(path, topics, meter)
     if given.type == METER_TYPE:
-        return Selection(chosen, meter=given.name, cmv="", truth=found.truth)
+        return replace(found, meter=given.name, cmv="", further={})
     if given.type == NUMBER_TYPE:
-        return Selection(chosen, meter="", cmv=given.name, truth=found.truth)
+        return replace(found, meter="", cmv=given.name, further={})
     raise BagError(
         f"{path}: {given.name} holds {given.type}; meter values are {METER_TYPE} or {NUMBER_TYPE}"
     )

@@ -11,6 +11,7 @@ class Ccv:
     """CCV = 100 (A_0.5 + A_1.5 + A_2 + A_2.5 + A_3) / (A_0.5 + A_1) (Sakai)."""
 
     name: ClassVar[str] = "ccv"
+    label: ClassVar[str] = "CCV"
     unit: ClassVar[str] = ""
     orders: ClassVar[tuple[float, ...]] = (0.5, 1.0, 1.5, 2.0, 2.5, 3.0)
     source: ClassVar[str] = "Sakai Heavy Industries, as commonly cited (NCHRP report 676, 2010)"

@@ -11,6 +11,7 @@ class Cmv:
     """CMV = 300 A_2 / A_1 (Geodynamik)."""
 
     name: ClassVar[str] = "cmv"
+    label: ClassVar[str] = "CMV"
     unit: ClassVar[str] = ""
     orders: ClassVar[tuple[float, ...]] = (1.0, 2.0)
     source: ClassVar[str] = (

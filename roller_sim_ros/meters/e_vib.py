@@ -28,6 +28,7 @@ class EVib:
     """
 
     name: ClassVar[str] = "e_vib"
+    label: ClassVar[str] = "E_vib"
     unit: ClassVar[str] = "Pa"
     source: ClassVar[str] = (
         "BOMAG, as commonly cited: Kröber, Floss and Wallrath, Dynamic soil stiffness as quality criterion for "

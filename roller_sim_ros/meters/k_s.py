@@ -19,6 +19,7 @@ class KS:
     """
 
     name: ClassVar[str] = "k_s"
+    label: ClassVar[str] = "k_s"
     unit: ClassVar[str] = "N/m"
     source: ClassVar[str] = (
         "Ammann, as commonly cited: Anderegg and Kaufmann, Intelligent compaction with vibratory rollers, "

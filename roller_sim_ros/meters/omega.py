@@ -25,6 +25,7 @@ class Omega:
     """
 
     name: ClassVar[str] = "omega"
+    label: ClassVar[str] = "Omega"
     unit: ClassVar[str] = "J"
     source: ClassVar[str] = "BOMAG, as commonly cited (Kröber, Floss and Wallrath, 2001)"
     verified: ClassVar[bool] = False

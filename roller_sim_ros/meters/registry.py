@@ -22,7 +22,12 @@ class MeterDefinition(Protocol):
 
     @property
     def name(self) -> str:
-        """Short name, as in messages and tables."""
+        """Short name, as in topics and columns."""
+        ...
+
+    @property
+    def label(self) -> str:
+        """Name as it is written."""
         ...
 
     @property

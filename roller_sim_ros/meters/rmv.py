@@ -11,6 +11,7 @@ class Rmv:
     """RMV = 300 A_0.5 / A_1, also called bouncing value; zero unless the motion's period is even."""
 
     name: ClassVar[str] = "rmv"
+    label: ClassVar[str] = "RMV"
     unit: ClassVar[str] = ""
     orders: ClassVar[tuple[float, ...]] = (0.5, 1.0)
     source: ClassVar[str] = (
