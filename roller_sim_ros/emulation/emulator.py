@@ -6,6 +6,7 @@ import threading
 from collections.abc import Mapping
 
 from roller_sim_ros.meters import CompactionMeter, MeterValue, TruthMeter, TruthValue
+from roller_sim_ros.meters.drum import Drum
 from roller_sim_ros.parameters import SAMPLES_PER_REVOLUTION, Configuration, ParameterError, Value
 from roller_sim_ros.sensors import IdealAccelerometer, Reading, Sensor
 from roller_sim_ros.session import (
@@ -94,6 +95,7 @@ class Emulator:
         self._meter = CompactionMeter(
             meter.window_revolutions,
             meter.noise_floor_m_s2,
+            drum=Drum.of(configuration.machine, configuration.exciter),
             period_tolerance=meter.period_tolerance,
         )
         self._truth = TruthMeter(
@@ -122,7 +124,7 @@ class Emulator:
     def advance(self, samples: int) -> list[Message]:
         """Step over the next samples and return what is to be published, in that order.
 
-        ``drum/acceleration`` and ``truth``; where a revolution ends ``meter``, ``cmv`` and
+        ``drum/acceleration`` and ``truth``; where a revolution ends ``meter``, ``cmv``, ``meters/…`` and
         ``site/state``; where one begins ``applied`` for all that took effect; ``exciter/state`` on change and 10
         times a simulated second; ``machine`` and ``soil`` at the start and on change.
 
@@ -237,12 +239,14 @@ class Emulator:
             block.excitation_hz,
             block.eccentric_phase_rad,
             block.phase_increment_rad,
+            self.session.exciter_status().amplitude_m,
         ):
             self.meter_value = value
             index = value.last_sample - block.first_sample
             stamp_ns = messages.sample_stamp(block, index, self.start_ns)
             out.append(messages.compaction_meter(value, stamp_ns))
             out.append(messages.cmv(value, stamp_ns))
+            out += messages.further_meters(value, stamp_ns)
 
     def _site_state(self, block: Block, truth: TruthValue) -> Message:
         masters = self.session.masters

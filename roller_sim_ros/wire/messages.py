@@ -179,6 +179,14 @@ def cmv(value: MeterValue, stamp_ns: int) -> Message:
     return _message(topics.CMV, stamp_ns, value.cmv)
 
 
+def further_meters(value: MeterValue, stamp_ns: int) -> list[Message]:
+    """Return ``meters/…``, each of the meter's further values alone."""
+    return [
+        _message(topic, stamp_ns, number)
+        for topic, number in zip(topics.FURTHER_METERS, value.further.values(), strict=True)
+    ]
+
+
 def exciter_state(
     status: ExciterStatus,
     stamp_ns: int,

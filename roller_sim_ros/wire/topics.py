@@ -7,6 +7,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from enum import Enum
 
+from roller_sim_ros.meters.registry import FURTHER
 from roller_sim_ros.parameters import SAMPLES_PER_REVOLUTION, Pacing
 from roller_sim_ros.wire.qos import Qos
 
@@ -114,6 +115,19 @@ CMV = Topic(
     _REVOLUTIONS,
     "per revolution",
 )
+FURTHER_METERS: tuple[Topic, ...] = tuple(
+    Topic(
+        f"meters/{meter.name}",
+        "std_msgs/msg/Float64",
+        Direction.PUBLISHED,
+        f"{meter.label} alone, {meter.unit or 'dimensionless'}, NaN when there is none; right after meter",
+        _REVOLUTIONS,
+        "per revolution",
+    )
+    for meter in FURTHER
+)
+"""Meter values beside CMV and RMV, in the order of the meters' registry."""
+
 EXCITER_STATE = Topic(
     "exciter/state",
     "roller_sim_ros/msg/ExciterState",
@@ -194,6 +208,7 @@ TOPICS: tuple[Topic, ...] = (
     IMU,
     METER,
     CMV,
+    *FURTHER_METERS,
     EXCITER_STATE,
     TRUTH,
     APPLIED,

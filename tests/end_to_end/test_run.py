@@ -20,7 +20,7 @@ from roller_sim_ros.session import Session
 from roller_sim_ros.traces.metadata import PARAMETERS as PARAMETERS_RECORD
 from roller_sim_ros.traces.metadata import RUN
 from roller_sim_ros.traces.reader import TraceReader
-from roller_sim_ros.wire.topics import TOPICS
+from roller_sim_ros.wire.topics import FURTHER_METERS, TOPICS
 from roller_sim_ros.wire.types import decode
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -170,6 +170,7 @@ def test_the_trace_holds_the_node_s_topics_and_the_run_s_samples(
         "/truth": 70 * 8,
         "/meter": 70,
         "/cmv": 70,
+        **{topic.resolved(): 70 for topic in FURTHER_METERS},
         "/exciter/state": reader.topics["/exciter/state"].messages,
         "/machine": 1,
         "/soil": 1,

@@ -14,6 +14,7 @@ import pytest
 from roller_sim_ros.emulation import Emulator
 from roller_sim_ros.errors import RollerSimError
 from roller_sim_ros.meters import CompactionMeter, Mode, TruthMeter
+from roller_sim_ros.meters.drum import Drum
 from roller_sim_ros.parameters import Configuration, ParameterError, Value
 from roller_sim_ros.session import Block, CommandRefused, Refusal
 from roller_sim_ros.wire.messages import Message
@@ -21,6 +22,7 @@ from roller_sim_ros.wire.types import decode
 
 START_NS = 1_700_000_000_123_456_789
 BLOCKS = ["drum/acceleration", "truth"]
+METERS = ["meter", "cmv", "meters/ccv", "meters/omega", "meters/e_vib", "meters/k_s"]
 
 
 def emulator(run_up: bool = False, **values: Value) -> Emulator:
@@ -48,12 +50,12 @@ def stamp_ns(message: Any) -> int:
 def test_messages_come_in_their_order() -> None:
     roller = emulator()
     assert topics(roller.advance(64)) == [*BLOCKS, "exciter/state", "machine", "soil"]
-    assert topics(roller.advance(64)) == [*BLOCKS, "meter", "cmv"]
+    assert topics(roller.advance(64)) == [*BLOCKS, *METERS]
     roller.command(vibrate=True, frequency_hz=28.0, amplitude_m=1.5e-3)
     roller.change({"soil.shear_modulus_pa": 80e6})
     assert topics(roller.advance(128)) == [
         *BLOCKS,
-        *("meter", "cmv", "applied", "applied", "exciter/state", "machine", "soil"),
+        *(*METERS, "applied", "applied", "exciter/state", "machine", "soil"),
     ]
 
 
@@ -74,9 +76,10 @@ def test_samples_are_the_session_s_in_single_precision() -> None:
 
 def test_meter_and_truth_are_those_of_the_published_samples() -> None:
     roller = emulator(soil__shear_modulus_pa=35e6, soil__plastic_parameter_m=0.8e-3)
+    machine, exciter = roller.session.configuration.machine, roller.session.configuration.exciter
     meter, truth = (
-        CompactionMeter(),
-        TruthMeter(16, roller.session.configuration.machine.static_load_n),
+        CompactionMeter(drum=Drum.of(machine, exciter)),
+        TruthMeter(16, machine.static_load_n),
     )
     for _ in range(120 * 2):
         messages = roller.advance(64)
@@ -90,6 +93,7 @@ def test_meter_and_truth_are_those_of_the_published_samples() -> None:
             acceleration.excitation_frequency,
             acceleration.eccentric_phase,
             acceleration.phase_increment,
+            exciter.amplitude_m,
         )
         published = of(messages, "meter")
         assert len(published) == len(values)
@@ -97,6 +101,9 @@ def test_meter_and_truth_are_those_of_the_published_samples() -> None:
             assert roller.meter_value == value or math.isnan(value.cmv)
             assert message.last_sample == value.last_sample
             assert cmv.data == message.cmv or math.isnan(cmv.data)
+            for name, number in value.further.items():
+                (alone,) = of(messages, f"meters/{name}")
+                assert alone.data == number or (math.isnan(alone.data) and math.isnan(number))
             end_s = block.time_s + (len(block) - 1) * block.sample_period_s
             assert stamp_ns(message) == START_NS + round(end_s * 1e9)
         expected = truth.feed(block)
@@ -107,6 +114,7 @@ def test_meter_and_truth_are_those_of_the_published_samples() -> None:
         assert roller.truth_value.last_sample == expected.last_sample
     assert roller.meter_value is not None
     assert roller.meter_value.mode is Mode.PARTIAL_UPLIFT
+    assert all(number > 0.0 for number in roller.meter_value.further.values())
     assert roller.truth_value.mode is Mode.PARTIAL_UPLIFT
     assert roller.truth_value.cmv == pytest.approx(roller.meter_value.cmv, rel=1e-5)
 

@@ -78,6 +78,7 @@ def make_messages(blocks: int) -> list[Message]:
             stamp = messages.sample_stamp(block, SAMPLES - 1, START_NS)
             value = MeterValue(last, 16, 50.0, 1.0, 28.0, 55.0, 0.1, 1, Mode.UNKNOWN, Status.NONE)
             found += [messages.compaction_meter(value, stamp), messages.cmv(value, stamp)]
+            found += messages.further_meters(value, stamp)
     return found
 
 
