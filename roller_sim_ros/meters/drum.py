@@ -43,7 +43,7 @@ class Drum:
         F_stat, on the ground at rest.
     radius_m, width_m : float or ndarray
         r and W.
-    vertical_share : float
+    vertical_share : float or ndarray
         Of the exciter's force: 1 for a circular exciter, the cosine of its tilt for a directed one.
     """
 
@@ -51,7 +51,7 @@ class Drum:
     static_load_n: Number
     radius_m: Number
     width_m: Number
-    vertical_share: float = 1.0
+    vertical_share: Number = 1.0
 
     @classmethod
     def of(cls, machine: Machine, exciter: Exciter) -> Drum:
@@ -144,7 +144,8 @@ class DrumMotion:
         """C_1, m/s², shape (...): the fundamental of the acceleration is Re C_1 exp(iφ)."""
         mean_revolution = self._by_revolutions(self.vertical).mean(axis=-2, dtype=np.float64)
         turns = np.exp(-1j * self.phase) * (2.0 / self.samples_per_revolution)
-        return np.asarray(mean_revolution @ turns)
+        # Not a matrix product: BLAS would start threads for it, and round differently with the number of motions.
+        return np.asarray((mean_revolution * turns).sum(axis=-1))
 
     @cached_property
     def soil_force(self) -> NDArray[np.float64]:

@@ -19,17 +19,18 @@ from roller_sim_ros.errors import RollerSimError
 from roller_sim_ros.sweep.errors import SweepStopped
 from roller_sim_ros.sweep.grid import Grid
 from roller_sim_ros.sweep.plan import DEFAULT_REVOLUTIONS, Continuation, Plan
+from roller_sim_ros.sweep.records import most_points
 from roller_sim_ros.sweep.results import Results
-from roller_sim_ros.sweep.task import Outcome, Task, compute
+from roller_sim_ros.sweep.task import Outcome, Task, compute, kept_revolutions
 
 if TYPE_CHECKING:
     import xarray
 
-_POINT_REVOLUTIONS = 32 * DEFAULT_REVOLUTIONS
-"""Size of a task: points × revolutions."""
+_MOST_LINES = 128
+"""Lines of a task: enough that few lanes are empty while the last runs of a task end."""
 
-_MOST_POINTS = 32
-"""Points of a task whose samples fit the cache, unless a line is longer."""
+_MOST_REVOLUTIONS = 500_000
+"""Points × revolutions of a task: what takes some tenths of a second at most."""
 
 _WAITING_TASKS = 64
 """Tasks handed to the executor ahead of time."""
@@ -159,8 +160,11 @@ def _keep_begun(futures: set[Future[Outcome]], take: Callable[[Future[Outcome]],
 
 def _tasks(results: Results) -> list[Task]:
     plan = results.plan
-    points = max(1, min(_MOST_POINTS, _POINT_REVOLUTIONS // plan.revolutions))
-    lines_each = max(1, points // plan.line_length)
+    fitting = most_points(
+        kept_revolutions(plan.revolutions), plan.grid.base.sampling.samples_per_revolution
+    )
+    short = _MOST_REVOLUTIONS // (plan.revolutions * plan.line_length)
+    lines_each = max(1, min(_MOST_LINES, fitting, short))
     missing = results.missing_lines()
     return [
         Task(plan, tuple(missing[first : first + lines_each]))

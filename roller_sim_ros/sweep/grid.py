@@ -3,16 +3,18 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
-from dataclasses import dataclass, field, replace
-from functools import cached_property, lru_cache
-from typing import Any
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from functools import cached_property
+from typing import Any, TypeVar
 
 import numpy as np
 
-from roller_sim_ros.parameters import Configuration, ParameterGroup
+from roller_sim_ros.parameters import Configuration
 from roller_sim_ros.sweep.axis import Axis
 from roller_sim_ros.sweep.errors import AxisError
+
+Frozen = TypeVar("Frozen")
 
 MOST_POINTS = 10_000_000
 """More would not fit into memory."""
@@ -89,15 +91,14 @@ class Grid:
 
     def configuration(self, point: int) -> Configuration:
         """Return all parameters at a point."""
-        groups: dict[str, list[tuple[str, float]]] = {}
+        groups: dict[str, dict[str, float]] = {}
         for name, value in self.values(point).items():
             group, _, short = name.partition(".")
-            groups.setdefault(group, []).append((short, value))
-        changed: dict[str, Any] = {
-            group: _changed(getattr(self.base, group), tuple(values))
-            for group, values in groups.items()
+            groups.setdefault(group, {})[short] = value
+        changed = {
+            group: _with(getattr(self.base, group), values) for group, values in groups.items()
         }
-        return replace(self.base, **changed)
+        return _with(self.base, changed)
 
     @cached_property
     def parameters(self) -> dict[str, Any]:
@@ -106,6 +107,12 @@ class Grid:
         return {name: value for name, value in self.base.flat().items() if name not in names}
 
 
-@lru_cache(maxsize=1024)
-def _changed(group: ParameterGroup, values: Sequence[tuple[str, float]]) -> ParameterGroup:
-    return replace(group, **dict(values))
+def _with(instance: Frozen, values: Mapping[str, object]) -> Frozen:
+    """Return a copy of a frozen dataclass with other values, unchecked.
+
+    The axes have checked them: to do so again at each of a million points takes longer than all else that is done to
+    set a point up.
+    """
+    copy = object.__new__(type(instance))
+    copy.__dict__.update(instance.__dict__, **values)
+    return copy

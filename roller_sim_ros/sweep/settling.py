@@ -1,150 +1,149 @@
-"""Revolution after revolution of one plan inside compiled code, until the motion repeats to rounding.
-
-A run whose state at the ends of revolutions repeats over `REPETITIONS` periods to `TOLERANCE` of its scale has reached
-its orbit: what follows is that orbit again. So its remaining revolutions need not be computed. Reached from rest, with
-changes that shrink from period to period by a factor μ, the rest of the way is δ μ/(1 − μ), δ the last change; a factor
-near 1 would not have come down to δ so soon, so that the rest is some δ, far below the 1e-9 that a sweep promises.
-"""
+"""Rollers stepped over revolutions of one plan inside compiled code, down to what they settle on."""
 
 from __future__ import annotations
 
-from collections.abc import Callable
+import threading
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from roller_sim_ros.drum_soil import exact_kernel, rational_kernel, two_pole_kernel
+from roller_sim_ros.drum_soil import exact_kernel, rational_kernel
 from roller_sim_ros.drum_soil import state as at
 from roller_sim_ros.jit import njit
+from roller_sim_ros.sweep import lanes
+from roller_sim_ros.sweep.records import Records
+from roller_sim_ros.sweep.repetition import WATCH_ROWS, begin_watch, repeats
 
 Array = NDArray[np.float64]
 Arguments = tuple[Any, ...]
+Loop = Callable[[int, bool, Array, Arguments, Array], tuple[int, int]]
 
-TOLERANCE = 1e-13
-"""Largest change of a state from period to period, as a share of its scale, that is rounding."""
-
-REPETITIONS = 8
-"""Periods in a row over which the state has to repeat."""
-
-LONGEST_PERIOD = 8
-"""Revolutions."""
-
-_PERIODS = 4
-"""How many periods are looked for: 1, 2, 4, 8."""
-
-# Rows of the array that watches a trajectory: its last states in a ring, the scales of the state's values, and
-# counts: revolutions seen, then for each period the ends of revolutions in a row at which the state repeated.
-_SCALES = LONGEST_PERIOD
-_COUNTS = LONGEST_PERIOD + 1
-WATCH_ROWS = LONGEST_PERIOD + 2
+_own = threading.local()
 
 
-def watch(scales: Array) -> Array:
-    """Return what `repeats` needs to watch a trajectory.
+@dataclass(frozen=True)
+class Run:
+    """What is stepped: at the start of a revolution that all its others are like.
 
-    Parameters
+    Attributes
     ----------
+    place : int
+        Number of its point in the records.
+    arguments : tuple
+        What the kernel takes between the samples and the output: state and constants come first.
     scales : ndarray, shape (STATE_SIZE,)
-        Size of each value of the state; of no value 0.
+        Sizes of its state's values, see `repetition`.
+    before : int
+        Revolutions before those that are recorded.
     """
-    rows = np.zeros((WATCH_ROWS, at.STATE_SIZE))
-    rows[_SCALES] = scales
-    return rows
 
-
-@njit
-def repeats(state: Array, watched: Array) -> int:
-    """Note the state at the end of a revolution; return the period if it has repeated for long enough, else 0."""
-    seen = int(watched[_COUNTS, 0])
-    period = 1
-    found = 0
-    for k in range(_PERIODS):
-        same = seen >= period
-        if same:
-            before = watched[(seen - period) % LONGEST_PERIOD]
-            datum = state[at.DATUM] - before[at.DATUM]
-            for i in range(at.DATUM):
-                change = state[i] - before[i]
-                if i == at.DEPTH:
-                    change -= datum
-                same = same and abs(change) <= TOLERANCE * watched[_SCALES, i]
-            same = same and state[at.PHASE] == before[at.PHASE]
-        watched[_COUNTS, k + 1] = watched[_COUNTS, k + 1] + 1.0 if same else 0.0
-        if found == 0 and watched[_COUNTS, k + 1] >= REPETITIONS * period:
-            found = period
-        period *= 2
-    slot = seen % LONGEST_PERIOD
-    for i in range(at.STATE_SIZE):
-        watched[slot, i] = state[i]
-    watched[_COUNTS, 0] = seen + 1
-    return found
+    place: int
+    arguments: Arguments
+    scales: Array
+    before: int
 
 
 @njit
 def _exact(
-    revolutions: int, watching: bool, watched: Array, arguments: Arguments, out: Array
+    revolutions: int, watching: bool, watch: Array, arguments: Arguments, out: Array
 ) -> tuple[int, int]:
-    for done in range(revolutions):
-        every: Arguments = (out.shape[2], 0) + arguments + (out[done % out.shape[0]],)  # noqa: RUF005
+    """Step over at most some revolutions, the last of them into `out`; return how many, and the period found."""
+    for done in range(1, revolutions + 1):
+        every: Arguments = (out.shape[2], 0) + arguments + (out[(done - 1) % out.shape[0]],)  # noqa: RUF005
         exact_kernel.advance(*every)
         if watching:
-            period = repeats(arguments[0], watched)
-            if period > 0 and (revolutions - done - 1) % period == 0:
-                return done + 1, period
+            period = repeats(arguments[0], watch)
+            if period > 0 and (revolutions - done) % period == 0:
+                return done, period
     return revolutions, 0
 
 
 @njit
 def _rational(
-    revolutions: int, watching: bool, watched: Array, arguments: Arguments, out: Array
+    revolutions: int, watching: bool, watch: Array, arguments: Arguments, out: Array
 ) -> tuple[int, int]:
-    for done in range(revolutions):
-        every: Arguments = (out.shape[2], 0) + arguments + (out[done % out.shape[0]],)  # noqa: RUF005
+    """As `_exact`."""
+    for done in range(1, revolutions + 1):
+        every: Arguments = (out.shape[2], 0) + arguments + (out[(done - 1) % out.shape[0]],)  # noqa: RUF005
         rational_kernel.advance(*every)
         if watching:
-            period = repeats(arguments[0], watched)
-            if period > 0 and (revolutions - done - 1) % period == 0:
-                return done + 1, period
+            period = repeats(arguments[0], watch)
+            if period > 0 and (revolutions - done) % period == 0:
+                return done, period
     return revolutions, 0
 
 
-@njit
-def _two_pole(
-    revolutions: int, watching: bool, watched: Array, arguments: Arguments, out: Array
-) -> tuple[int, int]:
-    for done in range(revolutions):
-        every: Arguments = (out.shape[2], 0) + arguments + (out[done % out.shape[0]],)  # noqa: RUF005
-        two_pole_kernel.advance(*every)
-        if watching:
-            period = repeats(arguments[0], watched)
-            if period > 0 and (revolutions - done - 1) % period == 0:
-                return done + 1, period
-    return revolutions, 0
+def settle(model: str, runs: Sequence[Run], early_stop: bool, records: Records) -> None:
+    """Step runs to their end and record their last revolutions, or one period of those that repeat to rounding.
+
+    Parameters
+    ----------
+    model : str
+        Kind of half space, the same for all.
+    runs : sequence of Run
+        At the start of the first revolution; their states go on.
+    early_stop : bool
+        Stop where the motion repeats to rounding.
+    records : Records
+        Receives the revolutions; ``computed`` is added to.
+    """
+    if model == "two-pole":
+        for before in sorted({run.before for run in runs}):
+            alike = [run for run in runs if run.before == before]
+            _settle_in_lanes(alike, before, early_stop, records)
+        return
+    loop: Loop = {"exact": _exact, "rational": _rational}[model]
+    for run in runs:
+        _settle_alone(loop, run, early_stop, records)
 
 
-LOOPS: dict[str, Callable[[int, bool, Array, Arguments, Array], tuple[int, int]]] = {
-    "exact": _exact,
-    "rational": _rational,
-    "two-pole": _two_pole,
-}
-"""For each half space: step over some revolutions of one plan.
+def _settle_alone(loop: Loop, run: Run, early_stop: bool, records: Records) -> None:
+    kept, _, in_revolution = records.samples.shape[1:]
+    out = _memory("out", (kept, at.OUT_ROWS, in_revolution))
+    watch = _memory("watch", (WATCH_ROWS, at.STATE_SIZE))
+    begin_watch(run.scales, watch)
+    done, period = loop(run.before, early_stop, watch, run.arguments, out[:1])
+    recorded = period or kept
+    loop(recorded, False, watch, run.arguments, out[:recorded])
+    for revolution in range(recorded):
+        records.keep(run.place, revolution, out[revolution])
+    records.recorded[run.place] = recorded
+    records.computed[run.place] += done + recorded
 
-Parameters
-----------
-revolutions : int
-    At most so many.
-watching : bool
-    Stop where the motion repeats to rounding and the rest is a whole number of its periods.
-watched : ndarray
-    From `watch`.
-arguments : tuple of ndarray
-    Of the kernel, between the samples and the output.
-out : ndarray, shape (n, OUT_ROWS, samples)
-    Receives the last n revolutions, in the place of their number modulo n.
 
-Returns
--------
-done, period : int
-    Revolutions stepped over; revolutions after which the motion repeats, 0 where that was not asked or found.
-"""
+def _settle_in_lanes(runs: Sequence[Run], before: int, early_stop: bool, records: Records) -> None:
+    memory: lanes.LaneMemory | None = getattr(_own, "lanes", None)
+    if memory is None:
+        memory = _own.lanes = lanes.LaneMemory()
+    states = np.array([run.arguments[0] for run in runs])
+    every: Arguments = (
+        np.array([run.arguments[1] for run in runs]),
+        states,
+        np.array([run.scales for run in runs]),
+        before,
+        records.samples.shape[1],
+        early_stop,
+        *runs[0].arguments[2:],
+        memory.lanes,
+        memory.runs,
+        memory.watches,
+        np.array([run.place for run in runs]),
+        records.samples,
+        records.recorded,
+        records.computed,
+    )
+    lanes.settle(*every)
+    for run, state in zip(runs, states, strict=True):
+        run.arguments[0][:] = state
+
+
+def _memory(name: str, shape: tuple[int, ...]) -> Array:
+    """Return this thread's scratch of a name."""
+    array: Array | None = getattr(_own, name, None)
+    if array is None or array.shape != shape:
+        array = np.empty(shape)
+        setattr(_own, name, array)
+    return array

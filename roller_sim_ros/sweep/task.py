@@ -2,24 +2,26 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from roller_sim_ros.drum_soil import state as at
+from roller_sim_ros.meters import SUMMARY_REVOLUTIONS
+from roller_sim_ros.parameters import Configuration
 from roller_sim_ros.sweep.motion import Motion
 from roller_sim_ros.sweep.plan import Plan
-from roller_sim_ros.sweep.roller import Roller, Settled
+from roller_sim_ros.sweep.records import DEPTH, FORCE, PHASE, VERTICAL, Records
+from roller_sim_ros.sweep.roller import Roller
+from roller_sim_ros.sweep.settling import settle
 from roller_sim_ros.sweep.values import VALUES
 
 DONE = "revolutions_computed"
 """Name of the array that tells how many revolutions were stepped over: none where a point is not done."""
 
-ROWS = (at.OUT_VERTICAL, at.OUT_FORCE, at.OUT_DEPTH, at.OUT_PHASE)
-"""What of the kernels' output is evaluated."""
+Values = dict[str, NDArray[Any]]
 
 
 @dataclass(frozen=True)
@@ -47,38 +49,78 @@ class Outcome:
     points : ndarray of int, shape (n,)
         Flat indices into the grid.
     values : dict
-        {name: ndarray, shape (n,)} of all values and of `DONE`.
+        {name: ndarray, shape (n,)} of all `VALUES` and of `DONE`.
     """
 
     points: NDArray[np.int64]
-    values: dict[str, NDArray[Any]]
+    values: Values
 
 
 def compute(task: Task) -> Outcome:
-    """Step the rollers of a task over their revolutions and evaluate what they settled on."""
-    points: list[int] = []
-    settled: list[Settled] = []
-    for line in task.lines:
-        for point, result in _along(task.plan, task.plan.line(line)):
-            points.append(point)
-            settled.append(result)
-    samples = np.stack([item.samples for item in settled])
-    motion = Motion(
-        configurations=[task.plan.grid.configuration(point) for point in points],
-        synchronous=np.array([item.synchronous for item in settled]),
-        vertical=samples[:, :, at.OUT_VERTICAL],
-        soil_force=samples[:, :, at.OUT_FORCE],
-        drum_height=-samples[:, :, at.OUT_DEPTH],
-        contact_state=samples[:, :, at.OUT_PHASE],
-    )
-    values = {value.name: np.asarray(value.of(motion), dtype=value.dtype) for value in VALUES}
-    values[DONE] = np.array([item.computed for item in settled], dtype=np.int32)
-    return Outcome(np.array(points), values)
+    """Step the rollers of a task over their revolutions and evaluate what they settle on."""
+    plan = task.plan
+    lines = np.array([plan.line(number) for number in task.lines])
+    rollers: list[Roller] = []
+    parts = []
+    for points in lines.T:
+        configurations = [plan.grid.configuration(int(point)) for point in points]
+        if rollers:
+            for roller, configuration in zip(rollers, configurations, strict=True):
+                roller.go_to(configuration)
+        else:
+            rollers = [Roller(configuration) for configuration in configurations]
+        records = _run(plan, rollers)
+        parts.append(_evaluate(configurations, records))
+    values = {name: np.concatenate([part[name] for part in parts]) for name in parts[0]}
+    return Outcome(lines.T.reshape(-1), values)
 
 
-def _along(plan: Plan, line: list[int]) -> Iterator[tuple[int, Settled]]:
-    """Yield the points of a line with what the roller settled on, each from where the one before ended."""
-    roller = Roller(plan.grid.configuration(line[0]))
-    for point in line:
-        roller.go_to(plan.grid.configuration(point))
-        yield point, roller.settle(plan.revolutions, early_stop=plan.early_stop)
+def kept_revolutions(revolutions: int) -> int:
+    """Return how many of a run's last revolutions are evaluated: an even number, as `offline.run` has it."""
+    return min(SUMMARY_REVOLUTIONS, revolutions - revolutions % 2)
+
+
+def _run(plan: Plan, rollers: Sequence[Roller]) -> Records:
+    """Step rollers over the revolutions of the points at which they are."""
+    base = plan.grid.base
+    kept = kept_revolutions(plan.revolutions)
+    records = Records(len(rollers), kept, base.sampling.samples_per_revolution)
+    runs = []
+    for place, roller in enumerate(rollers):
+        run = roller.approach(place, plan.revolutions - kept, records)
+        if run is None:
+            roller.record(place, records)
+        else:
+            runs.append(run)
+    if runs:
+        settle(base.half_space.model, runs, plan.early_stop, records)
+    return records
+
+
+def _evaluate(configurations: Sequence[Configuration], records: Records) -> Values:
+    """Return the values of all points: those of one length of record at a time."""
+    kept = records.samples.shape[1]
+    values: Values = {
+        value.name: np.empty(len(configurations), dtype=value.dtype) for value in VALUES
+    }
+    values[DONE] = records.computed.astype(np.int32)
+    for recorded in np.unique(records.recorded):
+        places = np.flatnonzero(records.recorded == recorded)
+        # Of a motion that repeats, two periods tell all that the run's last revolutions do.
+        times = 1 if recorded == kept else 2
+        revolutions = np.tile(np.arange(recorded), times)
+        rows = [
+            records.samples[places[:, np.newaxis], revolutions, row]
+            for row in (VERTICAL, FORCE, DEPTH, PHASE)
+        ]
+        motion = Motion(
+            configurations=[configurations[int(place)] for place in places],
+            synchronous=records.synchronous[places],
+            vertical=rows[0],
+            soil_force=rows[1],
+            drum_depth=rows[2],
+            contact_state=rows[3],
+        )
+        for value in VALUES:
+            values[value.name][places] = value.of(motion)
+    return values

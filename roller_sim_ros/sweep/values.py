@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from roller_sim_ros.meters.mode import Mode, true_mode
-from roller_sim_ros.meters.registry import METERS, HarmonicMeter
+from roller_sim_ros.meters.registry import DRUM_METERS, METERS, DrumMeter, HarmonicMeter
 from roller_sim_ros.meters.summary import blows
 from roller_sim_ros.parameters import GRAVITY_M_S2
 from roller_sim_ros.sweep.motion import UNKNOWN, Motion
@@ -119,14 +119,19 @@ def harmonic(meter: HarmonicMeter) -> Function:
     """Return the function of a meter value that follows from the harmonics of the acceleration."""
 
     def value(motion: Motion) -> Array:
-        return np.array(
-            [
-                meter.value(harmonics)
-                if synchronous and harmonics.amplitude(1.0) > 0.0
-                else math.nan
-                for harmonics, synchronous in zip(motion.harmonics, motion.synchronous, strict=True)
-            ]
-        )
+        with np.errstate(divide="ignore", invalid="ignore"):
+            values = np.asarray(meter.value(motion.harmonics))
+        known = motion.synchronous & (np.asarray(motion.harmonics.amplitude(1.0)) > 0.0)
+        return np.where(known, values, math.nan)
+
+    return value
+
+
+def of_drum(meter: DrumMeter) -> Function:
+    """Return the function of a meter value that needs the eccentric's phase and the machine."""
+
+    def value(motion: Motion) -> Array:
+        return np.where(motion.synchronous, meter.value(motion.drum_motion), math.nan)
 
     return value
 
@@ -138,18 +143,17 @@ def _mean_peak(motion: Motion, point: int) -> float:
     window = repeats * samples or motion.air.shape[1]
     air = motion.air[point, -window:]
     force = motion.soil_force[point].reshape(-1)[-window:]
-    landed = ~air & np.roll(air, 1)
-    if not repeats:
-        # The window has an end: what it cuts off is no whole blow.
-        landed[0] = False
-    landings = np.flatnonzero(landed)
+    landings = np.flatnonzero(air[:-1] & ~air[1:]) + 1
+    if repeats and air[-1] and not air[0]:
+        landings = np.concatenate(([0], landings))
     if len(landings) < (1 if repeats else 2):
         return float(force.reshape(-1, samples).max(axis=1).mean())
-    if repeats:
-        force = np.roll(force, -landings[0])
-        peaks = np.maximum.reduceat(force, landings - landings[0])
-    else:
-        peaks = np.maximum.reduceat(force[: landings[-1]], landings[:-1])
+    if not repeats:
+        # The window has an end: what it cuts off is no whole blow.
+        return float(np.maximum.reduceat(force[: landings[-1]], landings[:-1]).mean())
+    peaks = np.maximum.reduceat(force, landings)
+    if landings[0] > 0:
+        peaks[-1] = max(peaks[-1], force[: landings[0]].max())
     return float(peaks.mean())
 
 
@@ -183,5 +187,6 @@ VALUES: tuple[Value, ...] = (
     ),
     Value("acceleration_min_g", "g", "least vertical coordinate acceleration", acceleration_min_g),
     *(Value(item.name, item.unit or "1", item.source, harmonic(item)) for item in METERS),
+    *(Value(item.name, item.unit or "1", item.source, of_drum(item)) for item in DRUM_METERS),
 )
 """Every value, in the order in which a file has them."""
