@@ -50,12 +50,12 @@ def stamp_ns(message: Any) -> int:
 def test_messages_come_in_their_order() -> None:
     roller = emulator()
     assert topics(roller.advance(64)) == [*BLOCKS, "exciter/state", "machine", "soil"]
-    assert topics(roller.advance(64)) == [*BLOCKS, *METERS]
+    assert topics(roller.advance(64)) == [*BLOCKS, *METERS, "site/state"]
     roller.command(vibrate=True, frequency_hz=28.0, amplitude_m=1.5e-3)
     roller.change({"soil.shear_modulus_pa": 80e6})
     assert topics(roller.advance(128)) == [
         *BLOCKS,
-        *(*METERS, "applied", "applied", "exciter/state", "machine", "soil"),
+        *(*METERS, "site/state", "applied", "applied", "exciter/state", "machine", "soil"),
     ]
 
 

@@ -8,7 +8,15 @@ import pytest
 from roller_sim_ros.meters import MeterValue, Mode, Status, TruthValue
 from roller_sim_ros.parameters import Configuration
 from roller_sim_ros.sensors import IdealAccelerometer, Kind
-from roller_sim_ros.session import Applied, Block, ExciterCommand, ExciterStatus, Refusal
+from roller_sim_ros.session import (
+    Applied,
+    Block,
+    ExciterCommand,
+    ExciterStatus,
+    Master,
+    Refusal,
+)
+from roller_sim_ros.site import Position
 from roller_sim_ros.wire import messages, topics
 from roller_sim_ros.wire.imu import imu
 from roller_sim_ros.wire.types import decode, encode, typestore
@@ -123,8 +131,10 @@ def test_meter_and_cmv() -> None:
 
 
 def test_the_enumerations_are_those_of_the_messages() -> None:
+    masters = {f"MASTER_{item.name}": item.value for item in Master}
     exciter = constants("roller_sim_ros/msg/ExciterState")
-    assert exciter == {item.name: item.value for item in Refusal}
+    assert exciter == {item.name: item.value for item in Refusal} | masters
+    assert constants("roller_sim_ros/msg/AppliedChange") == masters
     levels = constants("diagnostic_msgs/msg/DiagnosticStatus")
     assert levels == {item.name: item.value for item in messages.Level}
     kinds = constants("roller_sim_ros/msg/DrumAcceleration")
@@ -133,8 +143,9 @@ def test_the_enumerations_are_those_of_the_messages() -> None:
     assert {k: v for k, v in meter.items() if k in Status.__members__} == {
         item.name: item.value for item in Status if item.value
     }
-    for mode in Mode:
-        assert meter["MODE_UNKNOWN" if mode is Mode.UNKNOWN else mode.name] == mode.value
+    modes = {"MODE_UNKNOWN" if mode is Mode.UNKNOWN else mode.name: mode.value for mode in Mode}
+    assert {name: meter[name] for name in modes} == modes
+    assert constants("roller_sim_ros/msg/SiteState") == modes | masters
 
 
 def test_exciter_state_and_command() -> None:
@@ -146,6 +157,7 @@ def test_exciter_state_and_command() -> None:
         amplitude_m=0.8e-3,
         force_amplitude_n=1.5e5,
         applied_sample=256,
+        master=Master.COMMAND,
     )
     reason = "frequency 99 Hz: must be at most 80 Hz"
     got = read(messages.exciter_state(status, START_NS, Refusal.OUT_OF_RANGE, reason))
@@ -153,6 +165,7 @@ def test_exciter_state_and_command() -> None:
     assert (got.commanded_frequency, got.commanded_amplitude) == (30.0, 1e-3)
     assert (got.frequency, got.amplitude, got.force_amplitude) == (28.0, 0.8e-3, 1.5e5)
     assert (got.applied_sample, got.refusal_code, got.refusal_reason) == (256, 3, reason)
+    assert got.master == 2
     accepted = read(messages.exciter_state(status, START_NS))
     assert (accepted.refusal_code, accepted.refusal_reason) == (0, "")
     command = read(messages.exciter_command(ExciterCommand(False, 28.0, 1.6e-3), START_NS))
@@ -164,9 +177,29 @@ def test_exciter_state_and_command() -> None:
     [(80e6, 80e6, ""), (7, 7.0, ""), (True, math.nan, "true"), ("exact", math.nan, "exact")],
 )
 def test_applied_change_takes_any_value(value, number: float, text: str) -> None:
-    got = read(messages.applied_change(Applied(384, "soil.shear_modulus_pa", value), START_NS))
+    change = Applied(384, "soil.shear_modulus_pa", value, Master.SCENARIO)
+    got = read(messages.applied_change(change, START_NS))
     assert (got.sample, got.name, got.text) == (384, "soil.shear_modulus_pa", text)
+    assert got.master == 1
     np.testing.assert_equal(got.value, number)
+
+
+def test_site_state_is_of_the_revolution_that_ends() -> None:
+    block = make_block(first_sample=112)
+    truth = TruthValue(127, cmv=37.5, mode=Mode.DOUBLE_JUMP)
+    position = Position(12.5, 3, -1.25, finished=True)
+    message = messages.site_state(
+        block, position, truth, (Master.COMMAND, Master.CMD_VEL), START_NS
+    )
+    got = read(message)
+    assert message.topic == "site/state"
+    assert nanoseconds(got.header.stamp) == START_NS + round(
+        (block.time_s + 15 * block.sample_period_s) * 1e9
+    )
+    assert (got.last_sample, got.chainage, got.pass_number, got.speed) == (127, 12.5, 3, -1.25)
+    assert (got.finished, got.cmv, got.mode) == (True, 37.5, 3)
+    assert (got.shear_modulus, got.plastic_parameter) == (35e6, 1e-3)
+    assert (got.exciter_master, got.travel_master) == (2, 3)
 
 
 def test_diagnostics() -> None:

@@ -14,7 +14,8 @@ from mcap.writer import CompressionType, Writer
 from roller_sim_ros.meters import MeterValue, Mode, Status, TruthValue
 from roller_sim_ros.parameters import Configuration
 from roller_sim_ros.sensors import IdealAccelerometer
-from roller_sim_ros.session import Applied, Block, ExciterCommand, ExciterStatus
+from roller_sim_ros.session import Applied, Block, ExciterCommand, ExciterStatus, Master
+from roller_sim_ros.site import Position
 from roller_sim_ros.traces.metadata import run_metadata
 from roller_sim_ros.traces.registration import register_all
 from roller_sim_ros.traces.writer import TraceWriter
@@ -78,6 +79,11 @@ def make_messages(blocks: int) -> list[Message]:
             stamp = messages.sample_stamp(block, SAMPLES - 1, START_NS)
             value = MeterValue(last, 16, 50.0, 1.0, 28.0, 55.0, 0.1, 1, Mode.UNKNOWN, Status.NONE)
             found += [messages.compaction_meter(value, stamp), messages.cmv(value, stamp)]
+            found.append(
+                messages.site_state(
+                    block, Position(), TruthValue(), (Master.NONE, Master.NONE), START_NS
+                )
+            )
             found += messages.further_meters(value, stamp)
     return found
 
