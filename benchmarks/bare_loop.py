@@ -1,6 +1,7 @@
-"""`python -m benchmarks.bare_loop PERIOD_S`: absolute deadlines and nothing else, until it is interrupted.
+"""`python -m benchmarks.bare_loop PERIOD_S BUSY_S`: absolute deadlines and nothing else, until it is interrupted.
 
-What any Python process on this machine can do at that moment; the node's pacing is compared with it.
+What any Python process on this machine can do at that moment; the node's pacing is compared with it. Busy for as long
+as the node is before each deadline, it also shows what the scheduler does to a process that needs the CPU.
 """
 
 from __future__ import annotations
@@ -15,16 +16,20 @@ from roller_sim_ros.node.realtime import precise_sleeps
 
 
 def main() -> None:
-    period_s = float(sys.argv[1])
+    period_s, busy_s = float(sys.argv[1]), float(sys.argv[2])
     interrupted = Interrupted()
     precise_sleeps()
     lateness_s: list[float] = []
     print("ready", flush=True)
     monotonic, sleep, note = time.monotonic, time.sleep, lateness_s.append
+    used = time.thread_time
     start = monotonic()
     count = 0
     while not interrupted:
         count += 1
+        until_s = used() + busy_s
+        while busy_s and used() < until_s:
+            pass
         due_s = start + count * period_s
         wait_s = due_s - monotonic()
         if wait_s > 0.0:

@@ -15,6 +15,8 @@ from benchmarks.table import Table
 from roller_sim_ros.parameters import SAMPLES_PER_REVOLUTION, Configuration
 
 FREQUENCIES_HZ = (28.0, 40.0)
+BUSY_S = 0.4e-3
+"""CPU time of the busy loop per block: about the node's."""
 SETTLING_S = 5.0
 """Run-up of the exciter and discovery, before CPU time is counted."""
 
@@ -37,12 +39,13 @@ def measure(options: Options) -> Table:
     return Table(
         title="Node",
         says=(
-            "`roller-sim sim` in a process of its own, recording, with a subscriber in another process, "
-            "and at the same time a bare deadline loop of the same period in a third. Lateness as the "
-            "node states it at its end, of all blocks since its start, in ms; CPU time as a share of one "
-            "core, of the node and of its recording process; samples lost at the subscriber and messages "
-            "dropped by the recording. Aims: p99.9 under one block, a node under 15 % of a core at 40 Hz, "
-            "nothing lost."
+            "`roller-sim sim` in a process of its own, recording, with a subscriber in another process. "
+            "At the same time a bare deadline loop of the same period in a third, and one that is busy "
+            f"for {BUSY_S * 1e3:g} ms of CPU time before each deadline, about as the node is, in a "
+            "fourth. Lateness as the node states it at its end, of all blocks since its start, in ms; "
+            "CPU time as a share of one core, of the node and of its recording process; samples lost at "
+            "the subscriber and messages dropped by the recording. Aims: p99.9 under one block, a node "
+            "under 15 % of a core at 40 Hz, nothing lost."
         ),
         columns=("run", *SHARES, "late", "core", "recorder", "samples", "lost", "dropped"),
         rows=rows,
@@ -56,7 +59,8 @@ def _run(folder: Path, number: int, frequency_hz: float, length_s: float) -> lis
     with Process(folder, number, "benchmarks.subscriber", TOPIC) as subscriber:
         subscriber.await_line("ready")
         with (
-            Process(folder, number, "benchmarks.bare_loop", f"{period_s!r}") as bare,
+            _loop(folder, number, period_s, 0.0) as bare,
+            _loop(folder, number, period_s, BUSY_S) as busy,
             sim(folder, number, frequency_hz, trace) as node,
         ):
             subscriber.await_line("first")
@@ -64,7 +68,7 @@ def _run(folder: Path, number: int, frequency_hz: float, length_s: float) -> lis
             before, then = node.cpu_seconds(), time.monotonic()
             time.sleep(max(0.0, length_s - SETTLING_S))
             after, now = node.cpu_seconds(), time.monotonic()
-            plain = bare.result()
+            loops = {"bare loop": bare.result(), "busy loop": busy.result()}
             said = node.end()
         found = subscriber.result()
     trace.unlink()
@@ -84,10 +88,17 @@ def _run(folder: Path, number: int, frequency_hz: float, length_s: float) -> lis
             str(found["lost"]),
             recorded["dropped"],
         ),
-        (
-            f"{what}: bare loop",
-            *(f"{plain[share] * 1e3:.2f}" for share in SHARES),
-            str(plain["late"]),
-            *("" for _ in range(5)),
+        *(
+            (
+                f"{what}: {loop}",
+                *(f"{plain[share] * 1e3:.2f}" for share in SHARES),
+                str(plain["late"]),
+                *("" for _ in range(5)),
+            )
+            for loop, plain in loops.items()
         ),
     ]
+
+
+def _loop(folder: Path, number: int, period_s: float, busy_s: float) -> Process:
+    return Process(folder, number, "benchmarks.bare_loop", f"{period_s!r}", f"{busy_s!r}")

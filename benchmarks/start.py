@@ -20,14 +20,15 @@ LISTENING_S = 0.5
 
 def measure(_options: Options) -> Table:
     """Start the node and a plain publisher in turn."""
-    published, heard, plain = [], [], []
+    published, heard, used, plain = [], [], [], []
     with tempfile.TemporaryDirectory() as name, domain() as number:
         folder = Path(name)
         _start(folder, number)  # compiles what the disk does not hold yet
         for _ in range(STARTS):
-            first, second = _start(folder, number)
+            first, second, cpu = _start(folder, number)
             published.append(first)
             heard.append(second)
+            used.append(cpu)
             plain.append(_plain(folder, number))
     return Table(
         title="Start",
@@ -42,6 +43,7 @@ def measure(_options: Options) -> Table:
         rows=[
             _row("roller-sim sim, published", published, "< 3 s"),
             _row("roller-sim sim, heard", heard, ""),
+            _row("roller-sim sim, CPU time until heard", used, ""),
             _row("plain publisher, heard", plain, ""),
         ],
     )
@@ -51,19 +53,24 @@ def _row(what: str, times: list[float], aim: str) -> tuple[str, ...]:
     return (what, seconds(median(times)), seconds(min(times)), seconds(max(times)), aim)
 
 
-def _start(folder: Path, number: int) -> tuple[float, float]:
-    """Return after how many seconds the node's first block was published and heard."""
+def _start(folder: Path, number: int) -> tuple[float, float, float]:
+    """Return after how many seconds the node's first block was published and heard, and the CPU time."""
     trace = folder / "start.mcap"
     with Process(folder, number, "benchmarks.subscriber", TOPIC) as subscriber:
         subscriber.await_line("ready")
         time.sleep(LISTENING_S)
         with sim(folder, number, FREQUENCY_HZ, trace) as node:
             subscriber.await_line("first")
+            cpu_s, _ = node.cpu_seconds()
             node.end()
         heard_ns = int(subscriber.result()["first_ns"])
     first = next(iter(TraceReader(trace).messages([f"/{TOPIC}"])))
     trace.unlink()
-    return (first.publish_time_ns - node.started_ns) * 1e-9, (heard_ns - node.started_ns) * 1e-9
+    return (
+        (first.publish_time_ns - node.started_ns) * 1e-9,
+        (heard_ns - node.started_ns) * 1e-9,
+        cpu_s,
+    )
 
 
 def _plain(folder: Path, number: int) -> float:
