@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import threading
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 
+from roller_sim_ros.emulation.instruments import Instruments
+from roller_sim_ros.faults import Scheduled, Span
 from roller_sim_ros.meters import CompactionMeter, MeterValue, TruthMeter, TruthValue
 from roller_sim_ros.meters.drum import Drum
 from roller_sim_ros.parameters import SAMPLES_PER_REVOLUTION, Configuration, ParameterError, Value
-from roller_sim_ros.sensors import IdealAccelerometer, Reading, Sensor
+from roller_sim_ros.sensors import Choice, Reading
 from roller_sim_ros.session import (
     Block,
     CommandRefused,
@@ -43,6 +45,12 @@ class Emulator:
         Where the roller is and what ground is there; the configured ground everywhere when not given.
     programme : Programme, optional
         What the exciter is to do while nobody commands it.
+    sensors : sequence of Choice
+        The sensors; an ideal accelerometer where none is chosen.
+    faults : sequence of Scheduled
+        Faults and when they are active.
+    seed : int
+        Of all random numbers of sensors and faults.
 
     Attributes
     ----------
@@ -50,6 +58,8 @@ class Emulator:
         The roller; to be advanced, commanded and changed through the emulator only.
     start_ns : int
         As given.
+    instruments : Instruments
+        Its sensors and faults.
     block : Block or None
         The last block.
     meter_value : MeterValue or None
@@ -58,7 +68,9 @@ class Emulator:
     Raises
     ------
     ParameterError
-        If the configuration has another number of samples per revolution.
+        If the configuration has another number of samples per revolution, or a sensor cannot be.
+    FaultRefused
+        If a scheduled fault cannot be.
 
     Examples
     --------
@@ -77,6 +89,9 @@ class Emulator:
         run_up: bool = False,
         site: Site | None = None,
         programme: Programme | None = None,
+        sensors: Sequence[Choice] = (),
+        faults: Sequence[Scheduled] = (),
+        seed: int = 0,
     ) -> None:
         samples = configuration.sampling.samples_per_revolution
         if samples != SAMPLES_PER_REVOLUTION:
@@ -90,8 +105,8 @@ class Emulator:
         self.block: Block | None = None
         self.meter_value: MeterValue | None = None
         meter = configuration.meter
-        self._sensor: Sensor = IdealAccelerometer()
-        self._reading: Reading | None = None
+        self.instruments = Instruments(self.session, sensors, faults, seed)
+        self._readings: list[Reading] = []
         self._meter = CompactionMeter(
             meter.window_revolutions,
             meter.noise_floor_m_s2,
@@ -140,14 +155,12 @@ class Emulator:
         """
         with self._lock:
             block = self.session.advance(samples)
-            reading = self._sensor.read(block)
-            self.block, self._reading = block, reading
+            self.block, self._readings = block, self.instruments.read(block)
             truth = self._truth.feed(block)
-            out = [
-                messages.drum_acceleration(reading, block, self.start_ns),
-                messages.drum_soil_state(block, truth, self.start_ns),
-            ]
-            self._add_meter(out, block, reading)
+            out = [messages.drum_acceleration(it, self.start_ns) for it in self._readings]
+            out.append(messages.drum_soil_state(block, truth, self.start_ns))
+            for reading in self._readings:
+                self._add_meter(out, reading)
             begins = block.first_sample % SAMPLES_PER_REVOLUTION == 0
             stamp_ns = messages.sample_stamp(block, 0, self.start_ns)
             if (block.first_sample + len(block)) % SAMPLES_PER_REVOLUTION == 0:
@@ -161,10 +174,8 @@ class Emulator:
 
     def imu_messages(self) -> list[Message]:
         """Return ``drum/imu`` of the last block, decimated as the pacing says."""
-        if self.block is None or self._reading is None:
-            return []
         decimation = self.session.configuration.pacing.imu_decimation
-        return imu(self._reading, self.block, self.start_ns, decimation)
+        return [it for reading in self._readings for it in imu(reading, self.start_ns, decimation)]
 
     def command(self, *, vibrate: bool, frequency_hz: float, amplitude_m: float) -> None:
         """Command the exciter; takes effect at the next multiple of 128 samples.
@@ -231,19 +242,19 @@ class Emulator:
             self._refusal = (code, reason)
             self._refusal_told = False
 
-    def _add_meter(self, out: list[Message], block: Block, reading: Reading) -> None:
+    def _add_meter(self, out: list[Message], reading: Reading) -> None:
         for value in self._meter.feed(
-            block.first_sample,
+            reading.first_sample,
             reading.vertical,
-            block.sample_period_s,
-            block.excitation_hz,
-            block.eccentric_phase_rad,
-            block.phase_increment_rad,
+            reading.sample_period_s,
+            reading.excitation_hz,
+            reading.eccentric_phase_rad,
+            reading.phase_increment_rad,
             self.session.exciter_status().amplitude_m,
         ):
             self.meter_value = value
-            index = value.last_sample - block.first_sample
-            stamp_ns = messages.sample_stamp(block, index, self.start_ns)
+            index = value.last_sample - reading.first_sample
+            stamp_ns = messages.sample_stamp(reading, index, self.start_ns)
             out.append(messages.compaction_meter(value, stamp_ns))
             out.append(messages.cmv(value, stamp_ns))
             out += messages.further_meters(value, stamp_ns)

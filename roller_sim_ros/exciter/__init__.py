@@ -2,6 +2,6 @@
 
 from roller_sim_ros.exciter.direction import DIRECTIONS, Direction
 from roller_sim_ros.exciter.force import exciter_motion
-from roller_sim_ros.exciter.revolution import ExciterDrive, Revolution
+from roller_sim_ros.exciter.revolution import DriveFault, ExciterDrive, Revolution
 
-__all__ = ["DIRECTIONS", "Direction", "ExciterDrive", "Revolution", "exciter_motion"]
+__all__ = ["DIRECTIONS", "Direction", "DriveFault", "ExciterDrive", "Revolution", "exciter_motion"]

@@ -47,6 +47,25 @@ class Revolution:
         return self.phase_increment_rad / self.sample_period_s
 
 
+@dataclass(frozen=True)
+class DriveFault:
+    """What keeps a drive from obeying.
+
+    Attributes
+    ----------
+    amplitude_m : float or None
+        Where the amplitude stays whatever is commanded; None: it obeys.
+    rate_factor : float
+        Of both rate limits.
+    frequency_loss_hz : float
+        By how much the frequency stays below the commanded one.
+    """
+
+    amplitude_m: float | None = None
+    rate_factor: float = 1.0
+    frequency_loss_hz: float = 0.0
+
+
 class ExciterDrive:
     """Follows the commands with a rate limit and plans revolution after revolution.
 
@@ -60,6 +79,17 @@ class ExciterDrive:
         Start from standstill; otherwise at once at full frequency and amplitude.
     samples : int
         Samples per revolution.
+
+    Attributes
+    ----------
+    target_frequency_hz, target_amplitude_m : float
+        What is commanded.
+    frequency_rate_hz_per_s, amplitude_rate_m_per_s : float
+        Rate limits.
+    frequency_hz, amplitude_m : float
+        At the end of the last planned revolution.
+    fault : DriveFault or None
+        What keeps it from obeying.
     """
 
     def __init__(
@@ -78,6 +108,7 @@ class ExciterDrive:
         self.amplitude_rate_m_per_s = exciter.amplitude_rate_m_per_s
         self.frequency_hz = 0.0 if run_up else self.target_frequency_hz
         self.amplitude_m = 0.0 if run_up else self.target_amplitude_m
+        self.fault: DriveFault | None = None
         self._phase_turns = 0.0
         self._acceleration = self._full_acceleration()
 
@@ -85,9 +116,12 @@ class ExciterDrive:
         """Plan the next revolution and move on to its end."""
         before = (self.frequency_hz, self.amplitude_m)
         duration_s = 1.0 / max(self.frequency_hz, self._floor_hz)
-        self.frequency_hz = self._next_frequency(self.frequency_rate_hz_per_s * duration_s)
+        target_hz, target_m, rate_factor = self._obeyed()
+        self.frequency_hz = self._next_frequency(
+            target_hz, self.frequency_rate_hz_per_s * rate_factor * duration_s
+        )
         self.amplitude_m = _towards(
-            self.amplitude_m, self.target_amplitude_m, self.amplitude_rate_m_per_s * duration_s
+            self.amplitude_m, target_m, self.amplitude_rate_m_per_s * rate_factor * duration_s
         )
         sample_period_s = 1.0 / (self._samples * max(self.frequency_hz, self._floor_hz))
         start_turns = self._phase_turns
@@ -112,10 +146,21 @@ class ExciterDrive:
             changing=before != (self.frequency_hz, self.amplitude_m),
         )
 
-    def _next_frequency(self, most_hz: float) -> float:
+    def _obeyed(self) -> tuple[float, float, float]:
+        """Return frequency and amplitude that the drive goes for, and the factor of its rates."""
+        fault = self.fault
+        if fault is None:
+            return self.target_frequency_hz, self.target_amplitude_m, 1.0
+        return (
+            max(0.0, self.target_frequency_hz - fault.frequency_loss_hz),
+            self.target_amplitude_m if fault.amplitude_m is None else fault.amplitude_m,
+            fault.rate_factor,
+        )
+
+    def _next_frequency(self, target_hz: float, most_hz: float) -> float:
         floor = self._floor_hz
-        free = _towards(self.frequency_hz, self.target_frequency_hz, most_hz)
-        if self.target_frequency_hz < floor or (free >= floor and self._phase_turns == 0.0):
+        free = _towards(self.frequency_hz, target_hz, most_hz)
+        if target_hz < floor or (free >= floor and self._phase_turns == 0.0):
             return free
         aligned = self._aligned_run_up(most_hz)
         if aligned is not None:

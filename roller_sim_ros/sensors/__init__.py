@@ -1,10 +1,24 @@
-"""Sensors: what an accelerometer on the drum delivers of the true motion; a new one is one file, one line."""
+"""Sensors: what they deliver of the true motion; a new one is one file, one line in the registry."""
 
+from roller_sim_ros.sensors.accelerometer import Accelerometer
 from roller_sim_ros.sensors.ideal import IdealAccelerometer
-from roller_sim_ros.sensors.sensor import Kind, Reading, Sensor, specific_force
+from roller_sim_ros.sensors.registry import SENSORS, SensorModel, Slot
+from roller_sim_ros.sensors.sensor import Disturbance, Kind, Reading, Sensor, specific_force
+from roller_sim_ros.sensors.sheet import AccelerometerSheet
+from roller_sim_ros.sensors.suite import Choice, Suite
 
-SENSORS: dict[str, type[Sensor]] = {
-    "ideal": IdealAccelerometer,
-}
-
-__all__ = ["SENSORS", "IdealAccelerometer", "Kind", "Reading", "Sensor", "specific_force"]
+__all__ = [
+    "SENSORS",
+    "Accelerometer",
+    "AccelerometerSheet",
+    "Choice",
+    "Disturbance",
+    "IdealAccelerometer",
+    "Kind",
+    "Reading",
+    "Sensor",
+    "SensorModel",
+    "Slot",
+    "Suite",
+    "specific_force",
+]

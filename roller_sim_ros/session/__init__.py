@@ -11,6 +11,7 @@ from roller_sim_ros.session.command import (
 )
 from roller_sim_ros.session.programme import Moment, Programme
 from roller_sim_ros.session.session import Session, warm_up
+from roller_sim_ros.session.supervision import Supervision
 
 __all__ = [
     "Applied",
@@ -23,5 +24,6 @@ __all__ = [
     "Programme",
     "Refusal",
     "Session",
+    "Supervision",
     "warm_up",
 ]

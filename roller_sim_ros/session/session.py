@@ -23,6 +23,7 @@ from roller_sim_ros.session.command import (
 )
 from roller_sim_ros.session.masters import Masters
 from roller_sim_ros.session.programme import Moment, Programme
+from roller_sim_ros.session.supervision import Supervision
 from roller_sim_ros.site import Site, UniformSite
 
 TWO_PI = 2.0 * math.pi
@@ -54,6 +55,8 @@ class Session:
         As given.
     masters : Masters
         Whom exciter and travel obey.
+    supervision : Supervision or None
+        What may keep the exciter from obeying; none until it is set.
     """
 
     def __init__(
@@ -89,6 +92,7 @@ class Session:
         self._command_sample = 0
         self._programme = programme
         self.masters = Masters(scenario=programme is not None)
+        self.supervision: Supervision | None = None
 
     @property
     def next_sample(self) -> int:
@@ -261,6 +265,8 @@ class Session:
             self._follow(self._programme)
         if self._pending:
             self._apply_pending()
+        if self.supervision is not None:
+            self.supervision.begin_revolution(self.moment, self._drive)
         self._revolution = self._drive.next_revolution()
         self._soil = self.site.soil(self.configuration.soil)
         self._ground.begin(self._revolution, self._soil)

@@ -8,7 +8,6 @@ from functools import cache
 import numpy as np
 
 from roller_sim_ros.sensors import Kind, Reading, specific_force
-from roller_sim_ros.session import Block
 from roller_sim_ros.wire import topics
 from roller_sim_ros.wire.messages import FRAME, Message, sample_stamp
 from roller_sim_ros.wire.types import encode, message_class
@@ -17,15 +16,13 @@ _STAMP = struct.Struct("<iI")
 _ACCELERATION = struct.Struct("<3d")
 
 
-def imu(reading: Reading, block: Block, start_ns: int, decimation: int = 1) -> list[Message]:
-    """Return ``drum/imu`` of a block: specific force, x forward, z up; y, which the model has not, is 0.
+def imu(reading: Reading, start_ns: int, decimation: int = 1) -> list[Message]:
+    """Return ``drum/imu`` of a reading: specific force, x forward, z up; y, which the model has not, is 0.
 
     Parameters
     ----------
     reading : Reading
-        What the sensor delivered for the block.
-    block : Block
-        The block.
+        What the sensor delivered.
     start_ns : int
         Start of the run, ns since the epoch.
     decimation : int
@@ -39,8 +36,8 @@ def imu(reading: Reading, block: Block, start_ns: int, decimation: int = 1) -> l
     head, middle, tail = _template()
     name, type_name = topics.IMU.name, topics.IMU.type_name
     messages = []
-    for index in range(-block.first_sample % decimation, len(block), decimation):
-        stamp_ns = sample_stamp(block, index, start_ns)
+    for index in range(-reading.first_sample % decimation, len(reading), decimation):
+        stamp_ns = sample_stamp(reading, index, start_ns)
         stamp = _STAMP.pack(*divmod(stamp_ns, 1_000_000_000))
         data = b"".join((head, stamp, middle, _ACCELERATION.pack(x[index], 0.0, z[index]), tail))
         messages.append(Message(name, type_name, data, stamp_ns))

@@ -10,7 +10,7 @@ import math
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from enum import IntEnum
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, Protocol
 
 import numpy as np
 
@@ -88,31 +88,45 @@ class Diagnostic:
     hardware_id: str = ""
 
 
-def sample_stamp(block: Block, index: int, start_ns: int) -> int:
-    """Return the stamp of a block's sample: the start plus the accumulated sample periods, in ns."""
+class Timed(Protocol):
+    """Samples that are equidistant: a block or a reading."""
+
+    @property
+    def time_s(self) -> float:
+        """Time of the first sample since the start, s."""
+        ...
+
+    @property
+    def sample_period_s(self) -> float:
+        """Time from sample to sample, s."""
+        ...
+
+
+def sample_stamp(block: Timed, index: int, start_ns: int) -> int:
+    """Return the stamp of a sample: the start plus the accumulated sample periods, in ns."""
     return start_ns + round((block.time_s + index * block.sample_period_s) * 1e9)
 
 
-def drum_acceleration(reading: Reading, block: Block, start_ns: int) -> Message:
-    """Return ``drum/acceleration`` of a block as the sensor read it."""
-    stamp_ns = sample_stamp(block, 0, start_ns)
+def drum_acceleration(reading: Reading, start_ns: int) -> Message:
+    """Return ``drum/acceleration`` of what the sensor delivered."""
+    stamp_ns = sample_stamp(reading, 0, start_ns)
     topic = topics.ACCELERATION
     return _message(
         topic,
         stamp_ns,
         _header(stamp_ns),
         int(reading.kind),
-        block.first_sample,
-        block.sample_period_s,
-        block.excitation_hz,
-        block.eccentric_phase_rad,
-        block.phase_increment_rad,
+        reading.first_sample,
+        reading.sample_period_s,
+        reading.excitation_hz,
+        reading.eccentric_phase_rad,
+        reading.phase_increment_rad,
         reading.vertical,
         reading.horizontal,
         reading.scale,
         reading.raw_vertical,
         reading.raw_horizontal,
-        reading.clipped,
+        int(reading.clipped.sum()),
         reading.sensor_time_s,
     )
 

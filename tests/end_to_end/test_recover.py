@@ -33,7 +33,7 @@ def whole(tmp_path_factory) -> Path:
         names = register_all(trace, configuration.pacing)
         for _ in range(BLOCKS):
             block = session.advance(16)
-            message = messages.drum_acceleration(sensor.read(block), block, START_NS)
+            message = messages.drum_acceleration(sensor.read(block)[0], START_NS)
             stamp = message.stamp_ns
             trace.put(names[message.topic], message.data, stamp, stamp)
     return path

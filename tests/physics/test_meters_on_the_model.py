@@ -51,7 +51,7 @@ def settle(
         blocks.append(block)
         values = meter.feed(
             block.first_sample,
-            sensor.read(block).vertical,
+            sensor.read(block)[0].vertical,
             block.sample_period_s,
             block.excitation_hz,
             block.eccentric_phase_rad,

@@ -63,8 +63,8 @@ def nanoseconds(stamp) -> int:
 
 def test_drum_acceleration_is_what_the_sensor_delivered() -> None:
     block = make_block()
-    reading = IdealAccelerometer().read(block)
-    message = messages.drum_acceleration(reading, block, START_NS)
+    (reading,) = IdealAccelerometer().read(block)
+    message = messages.drum_acceleration(reading, START_NS)
     got = read(message)
     assert (message.topic, message.type_name) == (
         "drum/acceleration",
@@ -247,8 +247,8 @@ def test_parameter_event_states_every_kind_of_value() -> None:
 @pytest.mark.parametrize("kind", list(Kind))
 def test_imu_is_specific_force_and_what_the_library_would_write(kind: Kind) -> None:
     block = make_block(16, first_sample=48)
-    reading = IdealAccelerometer(kind).read(block)
-    batch = imu(reading, block, START_NS)
+    (reading,) = IdealAccelerometer(kind).read(block)
+    batch = imu(reading, START_NS)
     assert len(batch) == 16
     for index, message in enumerate(batch):
         got = read(message)
@@ -268,10 +268,10 @@ def test_imu_is_specific_force_and_what_the_library_would_write(kind: Kind) -> N
 @pytest.mark.parametrize("first_sample", [0, 48, 53])
 def test_imu_decimation_counts_samples_of_the_session(first_sample: int) -> None:
     block = make_block(16, first_sample=first_sample)
-    reading = IdealAccelerometer().read(block)
-    every = imu(reading, block, START_NS)
+    (reading,) = IdealAccelerometer().read(block)
+    every = imu(reading, START_NS)
     expected = [every[i] for i in range(16) if (first_sample + i) % 5 == 0]
-    assert imu(reading, block, START_NS, decimation=5) == expected
+    assert imu(reading, START_NS, decimation=5) == expected
 
 
 def test_resolved_names() -> None:

@@ -69,11 +69,11 @@ def make_messages(blocks: int) -> list[Message]:
     sensor = IdealAccelerometer()
     for index in range(blocks):
         block = make_block(index)
-        reading = sensor.read(block)
-        found.append(messages.drum_acceleration(reading, block, START_NS))
+        (reading,) = sensor.read(block)
+        found.append(messages.drum_acceleration(reading, START_NS))
         found.append(messages.drum_soil_state(block, TruthValue(), START_NS))
         if index == 0:
-            found += imu(reading, block, START_NS)
+            found += imu(reading, START_NS)
         if index % 8 == 7:
             last = (index + 1) * SAMPLES - 1
             stamp = messages.sample_stamp(block, SAMPLES - 1, START_NS)
