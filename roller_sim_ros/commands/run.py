@@ -8,24 +8,32 @@ import time
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from roller_sim_ros.commands import scenario_run
 from roller_sim_ros.commands.flags import add_parameter_flags, given_values
 from roller_sim_ros.commands.progress import progress
 from roller_sim_ros.commands.soil_flags import add_soil_flags, with_presets
 from roller_sim_ros.errors import RollerSimError
-from roller_sim_ros.parameters import Configuration
+from roller_sim_ros.parameters import Configuration, ParameterError
 from roller_sim_ros.parameters.file import read_parameters
 
 if TYPE_CHECKING:
     from roller_sim_ros.offline.run import Tail
 
+REVOLUTIONS = 1000
+"""How many without a scenario, when nothing is said."""
+
 DESCRIPTION = """\
 Run the roller without ROS, as fast as it goes, from static equilibrium with the exciter at once at its full
 frequency and amplitude, and show the settled values over the last 64 revolutions: period, CMV, RMV, greatest
 soil force over the static one, extreme accelerations in g, share of the time in the air.
+
+With a SCENARIO the roller drives over its lane, from start to end, and what is shown are the passes: ground, CMV,
+RMV and modes. Flags change what the scenario does not say.
 """
 
 EPILOG = """\
 examples:
+  roller-sim run soft_to_stiff --map map.png --record trace.mcap
   roller-sim run --shear-modulus-mpa 80 --plastic-mm 0.5 --plot run.png
   roller-sim run --params config/loose.yaml --run-up --record trace.mcap
   roller-sim run --amplitude-mm 0.8 --json - | python3 -m json.tool
@@ -56,21 +64,34 @@ def main(argv: list[str] | None = None) -> int:
         If a parameter is refused, or a file cannot be read or written.
     """
     arguments = _parser().parse_args(argv)
+    if arguments.scenario is not None:
+        report, table = scenario_run.run(arguments)
+    elif arguments.map is not None:
+        raise ParameterError("--map", str(arguments.map), "needs a scenario")
+    else:
+        report, table = _run_on_the_spot(arguments)
+    if arguments.json is not None:
+        _write_json(report, arguments.json)
+    if arguments.json != "-":
+        print(table)
+    return 0
+
+
+def _run_on_the_spot(arguments: argparse.Namespace) -> tuple[dict[str, object], str]:
+    """Run without a scenario, draw what is asked for, and return what there is to say as object and table."""
     configuration = _configuration(arguments)
+    if arguments.revolutions is None:
+        arguments.revolutions = REVOLUTIONS
     # What takes long to import comes after --help.
     from roller_sim_ros.offline.report import as_object, as_table
 
     tail = _run(configuration, arguments)
     report = as_object(configuration, tail, arguments.revolutions)
-    if arguments.json is not None:
-        _write_json(report, arguments.json)
-    if arguments.json != "-":
-        print(as_table(report))
     if arguments.plot is not None:
         from roller_sim_ros.offline.figure import write_figure
 
         write_figure(configuration, tail, arguments.revolutions, arguments.plot)
-    return 0
+    return report, as_table(report)
 
 
 def _configuration(arguments: argparse.Namespace) -> Configuration:
@@ -108,8 +129,8 @@ def _parser() -> argparse.ArgumentParser:
         "--revolutions",
         metavar="N",
         type=_revolutions,
-        default=1000,
-        help="revolutions to run, at least 2; below the sampling floor: as many samples (default: %(default)s)",
+        help="revolutions to run, at least 2; below the sampling floor: as many samples (default: "
+        f"{REVOLUTIONS}; of a scenario: all, more cut it short)",
     )
     parser.add_argument(
         "--run-up",
@@ -139,6 +160,7 @@ def _parser() -> argparse.ArgumentParser:
         type=Path,
         help="YAML file with parameters in SI units, as a ROS 2 node reads it or plainly nested; flags win over it",
     )
+    scenario_run.add_scenario_arguments(parser)
     add_soil_flags(parser)
     add_parameter_flags(parser)
     return parser

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
 
@@ -44,11 +44,34 @@ def record_steps(
         If the trace cannot be written.
     """
     emulator = Emulator(configuration, start_ns=start_ns, run_up=run_up)
+    with record(emulator, path, run_metadata(configuration, start_ns)) as step:
+        yield step
+
+
+@contextmanager
+def record(
+    emulator: Emulator, path: Path, metadata: Mapping[str, Mapping[str, str]]
+) -> Iterator[Step]:
+    """Yield what steps an emulator block by block and records all of its messages, from its start.
+
+    Parameters
+    ----------
+    emulator : Emulator
+        Not advanced yet; its configuration's ``pacing`` gives the size of the blocks.
+    path : pathlib.Path
+        The trace; must not exist yet.
+    metadata : mapping
+        Metadata records by their names.
+
+    Raises
+    ------
+    TraceError
+        If the trace cannot be written.
+    """
+    configuration, start_ns = emulator.session.configuration, emulator.start_ns
     samples = configuration.pacing.samples_per_message
     with TraceWriter(
-        path,
-        run_metadata(configuration, start_ns),
-        flush_period_s=configuration.recording.flush_period_s,
+        path, metadata, flush_period_s=configuration.recording.flush_period_s
     ) as trace:
         names = register_all(trace, configuration.pacing)
         declared = parameter_event(f"/{NODE}", configuration.flat(), start_ns)

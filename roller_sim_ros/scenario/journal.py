@@ -75,7 +75,7 @@ class SiteMap:
 
 
 class Journal:
-    """Follows a session and keeps its map; `feed` it every block, right after it was stepped.
+    """Follows a session and keeps its map, until all is driven; `feed` it every block, right after it was stepped.
 
     Parameters
     ----------
@@ -99,9 +99,9 @@ class Journal:
     def feed(self, block: Block) -> None:
         """Take a block; where a revolution ends with it, a row is added."""
         value = self._truth.feed(block)
-        if (block.first_sample + len(block)) % self._samples:
-            return
         position = self._session.site.position
+        if position.finished or (block.first_sample + len(block)) % self._samples:
+            return
         begins_s = block.time_s - block.first_sample % self._samples * block.sample_period_s
         self._rows.append(
             (
