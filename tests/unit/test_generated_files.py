@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import importlib.util
+import shutil
 from pathlib import Path
 from types import ModuleType
 
@@ -37,6 +38,8 @@ def test_a_changed_file_is_found_and_written(
     monkeypatch.setattr(generator, "ROOT", tmp_path)
     for folder in ("docs", "config"):
         (tmp_path / folder).mkdir()
+    shutil.copytree(ROOT / "examples", tmp_path / "examples")
+    shutil.copy(ROOT / "README.md", tmp_path)
     assert generator.main(["--check"]) == 1
     assert not list(tmp_path.glob("docs/*"))
     assert generator.main([]) == 0
