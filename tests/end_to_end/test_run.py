@@ -172,7 +172,6 @@ def test_the_trace_holds_the_node_s_topics_and_the_run_s_samples(
         "/cmv": 70,
         **{topic.resolved(): 70 for topic in FURTHER_METERS},
         "/site/state": 70,
-        "/site/state": 70,
         "/exciter/state": reader.topics["/exciter/state"].messages,
         "/machine": 1,
         "/soil": 1,
