@@ -66,14 +66,12 @@ class _Term:
     big_e: NumberArray
 
 
-def _rayleigh_term(
-    side: Side, u: FloatArray, tau: FloatArray, gamma: float, *, at_front: bool = False
-) -> _Term:
-    """Term 1/sqrt(gamma^2 u - tau^2), zero at its own front u = (tau/gamma)^2."""
+def _rayleigh_term(side: Side, u: FloatArray, tau: FloatArray, gamma: float) -> _Term:
+    """Term 1/sqrt(gamma^2 u - tau^2); the first row of `u` is its own front (tau/gamma)^2."""
     c, slope = side.distance, gamma * gamma
     edge_u, t = np.maximum(u, c * c), side.tangent(u)
-    # At the front the difference would leave 1e-8 of rounding where there is exactly nothing.
-    w = np.zeros_like(u) if at_front else np.sqrt(np.maximum(slope * u - tau * tau, 0.0))
+    w = np.sqrt(np.maximum(slope * u - tau * tau, 0.0))
+    w[0] = 0.0  # the difference leaves 1e-8 of rounding where there is exactly nothing
     before_edge = np.sqrt(np.maximum(slope * c * c - tau * tau, 0.0))
     edge_w = np.where(u > c * c, w, before_edge)
     big_t = np.log(np.maximum(gamma * t + edge_w, _LEAST_LOGARITHM)) / gamma
@@ -217,28 +215,23 @@ def step_and_ramp(
     time = np.where(positive, tau, 1.0)
     a, gamma, strength = load.slowness_p, load.slowness_rayleigh, load.rayleigh_amplitude
 
-    u_r = np.minimum((time / gamma) ** 2, farthest)
-    u_s = np.minimum(time**2, farthest)
-    u_p = np.minimum((time / a) ** 2, farthest)
+    # Rows: the distances, squared, that the Rayleigh, the S and the P wave have come from.
+    u = np.minimum((time / np.array([[gamma], [1.0], [a]])) ** 2, farthest)
+    share = strength * np.array([[-1.0], [0.5], [0.5]])
     step, ramp = np.zeros_like(time), np.zeros_like(time)
     for side in sides(aspect_ratio):
-        _, area_r = side.weight_integrals(u_r)
-        along_s, area_s = side.weight_integrals(u_s)
-        along_p, area_p = side.weight_integrals(u_p)
-        step += 0.5 * (along_s + along_p)
-        ramp += time * 0.5 * (along_s + along_p) + fronts.after_p * (area_p - area_s)
-        ramp += fronts.after_rayleigh * area_r + fronts.after_s * (area_s - area_r)
-        for u, share in ((u_r, -1.0), (u_s, 0.5), (u_p, 0.5)):
-            term = _rayleigh_term(side, u, time, gamma, at_front=u is u_r)
-            part_step, part_ramp = _antiderivatives(side, u, time, term)
-            step -= share * strength * part_step
-            ramp -= share * strength * part_ramp
+        along, area = side.weight_integrals(u)
+        step += 0.5 * (along[1] + along[2])
+        ramp += 0.5 * time * (along[1] + along[2]) + fronts.after_p * (area[2] - area[1])
+        ramp += fronts.after_rayleigh * area[0] + fronts.after_s * (area[1] - area[0])
+        of_step, of_ramp = _antiderivatives(side, u, time, _rayleigh_term(side, u, time, gamma))
+        step -= (share * of_step).sum(axis=0)
+        ramp -= (share * of_ramp).sum(axis=0)
         for root in load.body_roots:
-            for u, share in ((u_s, -0.5), (u_p, 0.5)):
-                term = _body_term(side, u, time, root.kappa_squared)
-                part_step, part_ramp = _antiderivatives(side, u, time, term)
-                step -= share * (root.amplitude * part_step).real
-                ramp -= share * (root.amplitude * part_ramp).real
+            term = _body_term(side, u[1:], time, root.kappa_squared)
+            of_step, of_ramp = _antiderivatives(side, u[1:], time, term)
+            step -= 0.5 * (root.amplitude * (of_step[1] - of_step[0])).real
+            ramp -= 0.5 * (root.amplitude * (of_ramp[1] - of_ramp[0])).real
     # Outside the memory both are known without the rounding of large terms that cancel.
     late = tau >= memory(aspect_ratio, poisson_ratio)
     step = np.where(late, 1.0, np.where(positive, step / whole, 0.0))
