@@ -14,7 +14,6 @@ from roller_sim_ros.parameters.quantity import declared
 from roller_sim_ros.scenario import Scenario, Start, has_own_section, read_scenario, start_of
 from roller_sim_ros.scenario.metadata import scenario_metadata
 from roller_sim_ros.scenario.shipped import scenario_path
-from roller_sim_ros.session import Session
 from roller_sim_ros.soil_mechanics import GranularSoil
 
 if TYPE_CHECKING:
@@ -101,16 +100,14 @@ def _with_flags(start: Start, arguments: argparse.Namespace) -> Start:
 
 
 def _run(scenario: Scenario, start: Start, arguments: argparse.Namespace) -> ScenarioRun:
-    from roller_sim_ros.offline.scenario_run import run_scenario
+    from roller_sim_ros.offline.scenario_run import run_scenario, step_with_faults
 
     show = progress("running", always=arguments.progress)
     path = start.configuration.recording.path
     if not path:
-        session = Session(**start._asdict())
-        samples = session.samples_per_revolution
-        return run_scenario(
-            scenario, session, lambda: session.advance(samples), show, arguments.revolutions
-        )
+        session = start.session()
+        step = step_with_faults(session, start)
+        return run_scenario(scenario, session, step, show, arguments.revolutions)
     from roller_sim_ros.emulation import Emulator
     from roller_sim_ros.offline.recording import record
     from roller_sim_ros.traces.metadata import run_metadata

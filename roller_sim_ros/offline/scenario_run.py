@@ -5,9 +5,10 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 
+from roller_sim_ros.emulation.instruments import Instruments
 from roller_sim_ros.offline.run import Progress, Step
-from roller_sim_ros.scenario import Journal, Scenario, SiteMap
-from roller_sim_ros.session import Session
+from roller_sim_ros.scenario import Journal, Scenario, SiteMap, Start
+from roller_sim_ros.session import Block, Session
 
 
 @dataclass(frozen=True)
@@ -30,6 +31,29 @@ class ScenarioRun:
     finished: bool
     duration_s: float
     unsettled_steps: int
+
+
+def step_with_faults(session: Session, start: Start) -> Step:
+    """Return what steps a session of a scenario by whole revolutions, with the faults of its exciter.
+
+    Parameters
+    ----------
+    session : Session
+        Made from `start`, at its beginning.
+    start : Start
+        For sensors and faults.
+    """
+    samples = session.samples_per_revolution
+    if not start.faults:
+        return lambda: session.advance(samples)
+    instruments = Instruments(session, start.sensors, start.faults, start.seed)
+
+    def step() -> Block:
+        block = session.advance(samples)
+        instruments.read(block)
+        return block
+
+    return step
 
 
 def run_scenario(

@@ -1,9 +1,8 @@
 """Scenario files: what the roller drives over, what its exciter does, how it is measured and what fails.
 
 >>> from pathlib import Path
->>> from roller_sim_ros.session import Session
 >>> scenario = parse_scenario("lane: {length_m: 20}", Path("short.yaml"))
->>> session = Session(**start_of(scenario)._asdict())
+>>> session = start_of(scenario).session()
 >>> session.advance(128).shear_modulus_pa
 50000000.0
 """

@@ -6,10 +6,12 @@ import math
 from dataclasses import replace
 from typing import NamedTuple
 
+from roller_sim_ros.faults import Scheduled
 from roller_sim_ros.parameters import Configuration, ParameterError, Value, lookup
 from roller_sim_ros.scenario.programme import ExciterProgramme
 from roller_sim_ros.scenario.scenario import Scenario
-from roller_sim_ros.session import Moment
+from roller_sim_ros.sensors import Choice
+from roller_sim_ros.session import Moment, Session
 from roller_sim_ros.site import LaneSite, Position
 from roller_sim_ros.site.declaration import members
 from roller_sim_ros.soil_mechanics import machine_preset
@@ -88,12 +90,24 @@ def programme_of(scenario: Scenario) -> ExciterProgramme:
 
 
 class Start(NamedTuple):
-    """What a session, or an emulator, of a scenario is made of: its keyword arguments."""
+    """What an emulator of a scenario is made of: its keyword arguments but the time of the start.
+
+    A session alone takes the first four.
+    """
 
     configuration: Configuration
     run_up: bool
     site: LaneSite
     programme: ExciterProgramme
+    sensors: tuple[Choice, ...]
+    faults: tuple[Scheduled, ...]
+    seed: int
+
+    def session(self) -> Session:
+        """Return a session, without sensors and faults."""
+        return Session(
+            self.configuration, run_up=self.run_up, site=self.site, programme=self.programme
+        )
 
 
 def start_of(scenario: Scenario) -> Start:
@@ -109,7 +123,20 @@ def start_of(scenario: Scenario) -> Start:
         scenario.exciter.run_up,
         site_of(scenario),
         programme_of(scenario),
+        sensors_of(scenario),
+        faults_of(scenario),
+        scenario.seed,
     )
+
+
+def sensors_of(scenario: Scenario) -> tuple[Choice, ...]:
+    """Return the sensors as they are chosen from the registry."""
+    return tuple(Choice(part.name, part.parameters) for part in scenario.sensors)
+
+
+def faults_of(scenario: Scenario) -> tuple[Scheduled, ...]:
+    """Return the faults as they are scheduled; a part of the scenario is its own window."""
+    return tuple(Scheduled(part.id, part, part.parameters) for part in scenario.faults)
 
 
 def _machine_values(scenario: Scenario) -> dict[str, Value]:

@@ -11,7 +11,7 @@ from yaml.nodes import MappingNode, Node, ScalarNode, SequenceNode
 
 from roller_sim_ros.parameters import ParameterError
 from roller_sim_ros.scenario.build import configuration_of, programme_of, site_of
-from roller_sim_ros.scenario.catalogue import check_faults, check_sensors
+from roller_sim_ros.scenario.catalogue import check_instruments
 from roller_sim_ros.scenario.nodes import (
     ScenarioError,
     compose,
@@ -59,8 +59,7 @@ def parse_scenario(text: str, path: Path) -> Scenario:
         configuration_of(scenario)
         site_of(scenario)
         programme_of(scenario)
-        check_sensors(scenario.sensors)
-        check_faults(scenario.faults)
+        check_instruments(scenario.sensors, scenario.faults)
     except ParameterError as error:
         raise ScenarioError(path, reader.line(error.name), _told(error.name, error)) from None
     return scenario

@@ -2,11 +2,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import Any
 
-from roller_sim_ros.parameters import PARAMETERS, Quantity
+from roller_sim_ros.faults import FAULTS
+from roller_sim_ros.parameters import PARAMETERS, ParameterGroup, Quantity, Value
+from roller_sim_ros.parameters.quantity import declared
 from roller_sim_ros.scenario.build import has_own_section
-from roller_sim_ros.scenario.scenario import Scenario
+from roller_sim_ros.scenario.scenario import FaultPart, Scenario, SensorPart
+from roller_sim_ros.sensors import SENSORS
 from roller_sim_ros.site.declaration import TAG, Declaration, Member, Record, members
 
 DIALECT = "http://json-schema.org/draft-07/schema#"
@@ -20,6 +24,14 @@ def json_schema() -> dict[str, Any]:
     definitions: dict[str, Any] = {}
     root = _object(Scenario, definitions)
     root["properties"]["parameters"] = _parameters()
+    root["properties"]["sensors"]["items"] = _named(
+        SensorPart, "name", {name: (model.doc, model.group) for name, model in SENSORS.items()}
+    )
+    root["properties"]["faults"]["items"] = _named(
+        FaultPart, "id", {name: (_summary(fault), fault) for name, fault in FAULTS.items()}
+    )
+    for unused in (SensorPart, FaultPart):
+        del definitions[unused.__name__]
     return {
         "$schema": DIALECT,
         "title": "Scenario of roller_sim_ros",
@@ -105,20 +117,41 @@ def _scalar(kind: type[Any], declaration: Declaration | Quantity) -> dict[str, A
     return schema
 
 
+def _named(
+    record: type[Record], key: str, entries: Mapping[str, tuple[str, type[ParameterGroup]]]
+) -> dict[str, Any]:
+    """Return the schema of a sensor or fault: one alternative for each name, with the parameters that it has."""
+    alternatives = []
+    for name, (doc, group) in entries.items():
+        schema = _object(record, {})
+        schema["description"] = doc
+        schema["properties"][key] = {"const": name}
+        schema["properties"]["parameters"] = _values(
+            {item: (quantity, default) for item, quantity, default in declared(group)},
+            "how it differs from what its name says, SI units",
+        )
+        alternatives.append(schema)
+    return {"anyOf": alternatives}
+
+
 def _parameters() -> dict[str, Any]:
     """Return the schema of the parameters that a scenario may say by their dotted names."""
+    own = {name: known for name, known in PARAMETERS.items() if not has_own_section(name)}
+    return _values(own, "other parameters by their dotted names, SI units")
+
+
+def _values(quantities: Mapping[str, tuple[Quantity, Value]], doc: str) -> dict[str, Any]:
     properties: dict[str, Any] = {}
-    for name, (quantity, default) in PARAMETERS.items():
-        if not has_own_section(name):
-            unit = f", {quantity.unit}" if quantity.unit else ""
-            properties[name] = {
-                **_scalar(type(default), quantity),
-                "description": f"{quantity.doc}{unit}",
-                "default": default,
-            }
+    for name, (quantity, default) in quantities.items():
+        unit = f", {quantity.unit}" if quantity.unit else ""
+        properties[name] = {
+            **_scalar(type(default), quantity),
+            "description": f"{quantity.doc}{unit}",
+            "default": default,
+        }
     return {
         "type": "object",
-        "description": "other parameters by their dotted names, SI units",
+        "description": doc,
         "properties": properties,
         "additionalProperties": False,
     }
@@ -131,5 +164,5 @@ def _description(declaration: Declaration) -> str:
     return f"{declaration.doc} (source: {declaration.source}; {verified})"
 
 
-def _summary(record: type[Record]) -> str:
+def _summary(record: type[Any]) -> str:
     return (record.__doc__ or "").strip().splitlines()[0]

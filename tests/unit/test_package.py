@@ -53,6 +53,7 @@ LAYERS = (
     "sensors",
     "meters",
     "session",
+    "faults",
     "scenario",
     "wire",
     "emulation",
