@@ -50,7 +50,7 @@ _SAVE_EVERY_S = 10.0
 _SAVING_SHARE = 0.05
 """Most of the time that may go into saving what is done."""
 
-_CONNECTING_S = 10.0
+_CONNECTING_S = 5.0
 
 
 def main(argv: list[str] | None = None) -> int:
@@ -76,25 +76,25 @@ def main(argv: list[str] | None = None) -> int:
     path: Path = arguments.out
     _check_place(path, resume=arguments.resume, force=arguments.force)
     # What takes long to import comes after everything that can be refused.
-    from roller_sim_ros.sweep.errors import SweepStopped
     from roller_sim_ros.sweep.file import write
     from roller_sim_ros.sweep.filling import fill
 
     results = _results(plan, path, resume=arguments.resume)
-    began = time.monotonic()
+    before, began = results.points_done, time.monotonic()
     try:
         with ExitStack() as stack:
             executor = stack.enter_context(_executor(arguments.scheduler, arguments.workers))
             progress = stack.enter_context(_progress(results, always=arguments.progress))
             fill(results, executor, _Keeper(results, path, progress).take)
-    except (KeyboardInterrupt, SweepStopped) as stop:
-        write(results, path)
-        print(
-            f"roller-sim sweep: {results.points_done} of {plan.grid.size} points are in {path}; "
-            "go on with --resume",
-            file=sys.stderr,
-        )
-        if isinstance(stop, SweepStopped):
+    except (KeyboardInterrupt, RollerSimError) as stop:
+        if results.points_done > before:
+            write(results, path)
+            print(
+                f"roller-sim sweep: {results.points_done} of {plan.grid.size} points are in {path}; "
+                "go on with --resume",
+                file=sys.stderr,
+            )
+        if isinstance(stop, RollerSimError):
             raise
         return 130
     write(results, path)

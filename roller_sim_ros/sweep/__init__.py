@@ -21,6 +21,7 @@ if TYPE_CHECKING:
     from roller_sim_ros.sweep.grid import Grid
     from roller_sim_ros.sweep.plan import Continuation, Plan
     from roller_sim_ros.sweep.results import Results
+    from roller_sim_ros.sweep.task import values_at
     from roller_sim_ros.sweep.values import VALUES, Value
 
 _PLACES = {
@@ -37,6 +38,7 @@ _PLACES = {
     "fill": "filling",
     "read": "file",
     "run": "filling",
+    "values_at": "task",
     "write": "file",
 }
 
@@ -47,6 +49,7 @@ __all__ = [
     "Continuation",
     "run",
     "fill",
+    "values_at",
     "Results",
     "read",
     "write",

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from roller_sim_ros.meters import SUMMARY_REVOLUTIONS
 from roller_sim_ros.parameters import Configuration
 from roller_sim_ros.sweep.motion import Motion
-from roller_sim_ros.sweep.plan import Plan
+from roller_sim_ros.sweep.plan import DEFAULT_REVOLUTIONS, Plan
 from roller_sim_ros.sweep.records import DEPTH, FORCE, PHASE, VERTICAL, Records
 from roller_sim_ros.sweep.roller import Roller
 from roller_sim_ros.sweep.settling import settle
@@ -69,10 +69,38 @@ def compute(task: Task) -> Outcome:
                 roller.go_to(configuration)
         else:
             rollers = [Roller(configuration) for configuration in configurations]
-        records = _run(plan, rollers)
+        records = _run(rollers, plan.grid.base, plan.revolutions, early_stop=plan.early_stop)
         parts.append(_evaluate(configurations, records))
     values = {name: np.concatenate([part[name] for part in parts]) for name in parts[0]}
     return Outcome(lines.T.reshape(-1), values)
+
+
+def values_at(
+    configurations: Sequence[Configuration],
+    revolutions: int = DEFAULT_REVOLUTIONS,
+    *,
+    early_stop: bool = True,
+) -> Values:
+    """Return what rollers settle on from rest, at any points, on this core.
+
+    Parameters
+    ----------
+    configurations : sequence of Configuration
+        The points, at least one; with one half space and one number of samples per revolution.
+    revolutions : int
+        Revolutions at each point, of which the last 64 are evaluated; at least 2.
+    early_stop : bool
+        Do not compute revolutions that repeat those before to rounding.
+
+    Returns
+    -------
+    dict
+        {name: ndarray, shape (points,)} of all `VALUES` and of `DONE`.
+    """
+    rollers = [Roller(configuration) for configuration in configurations]
+    return _evaluate(
+        configurations, _run(rollers, configurations[0], revolutions, early_stop=early_stop)
+    )
 
 
 def kept_revolutions(revolutions: int) -> int:
@@ -80,20 +108,21 @@ def kept_revolutions(revolutions: int) -> int:
     return min(SUMMARY_REVOLUTIONS, revolutions - revolutions % 2)
 
 
-def _run(plan: Plan, rollers: Sequence[Roller]) -> Records:
+def _run(
+    rollers: Sequence[Roller], alike: Configuration, revolutions: int, *, early_stop: bool
+) -> Records:
     """Step rollers over the revolutions of the points at which they are."""
-    base = plan.grid.base
-    kept = kept_revolutions(plan.revolutions)
-    records = Records(len(rollers), kept, base.sampling.samples_per_revolution)
+    kept = kept_revolutions(revolutions)
+    records = Records(len(rollers), kept, alike.sampling.samples_per_revolution)
     runs = []
     for place, roller in enumerate(rollers):
-        run = roller.approach(place, plan.revolutions - kept, records)
+        run = roller.approach(place, revolutions - kept, records)
         if run is None:
             roller.record(place, records)
         else:
             runs.append(run)
     if runs:
-        settle(base.half_space.model, runs, plan.early_stop, records)
+        settle(alike.half_space.model, runs, early_stop, records)
     return records
 
 
