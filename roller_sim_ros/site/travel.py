@@ -110,7 +110,6 @@ class Travel:
         if self._duration_s is not None:
             left_s = min(left_s, max(0.0, self._duration_s - self._elapsed_s))
         idle_s = duration_s - left_s
-        self._elapsed_s += duration_s
         if self._driven_m_s is not None:
             left_s, idle_s = duration_s, 0.0
         while left_s > 0.0:
@@ -119,6 +118,7 @@ class Travel:
             legs.append(leg)
         if idle_s > 0.0:
             legs.append(Leg(self._chainage_m, self._chainage_m, idle_s, ends_pass=False))
+        self._elapsed_s += duration_s
         return legs
 
     def state(self) -> dict[str, float | int | bool]:
