@@ -68,15 +68,13 @@ class Emulator:
     Raises
     ------
     ParameterError
-        If the configuration has another number of samples per revolution, or a sensor cannot be.
-    FaultRefused
-        If a scheduled fault cannot be.
+        If the configuration has another number of samples per revolution, or a sensor or a fault cannot be.
 
     Examples
     --------
     >>> emulator = Emulator(Configuration(), start_ns=0)
     >>> [message.topic for message in emulator.advance(16)]
-    ['drum/acceleration', 'truth', 'exciter/state', 'machine', 'soil']
+    ['drum/acceleration', 'truth', 'faults', 'exciter/state', 'machine', 'soil']
     >>> [message.topic for message in emulator.advance(16)]
     ['drum/acceleration', 'truth']
     """
@@ -139,9 +137,10 @@ class Emulator:
     def advance(self, samples: int) -> list[Message]:
         """Step over the next samples and return what is to be published, in that order.
 
-        ``drum/acceleration`` and ``truth``; where a revolution ends ``meter``, ``cmv``, ``meters/…`` and
-        ``site/state``; where one begins ``applied`` for all that took effect; ``exciter/state`` on change and 10
-        times a simulated second; ``machine`` and ``soil`` at the start and on change.
+        ``drum/acceleration``, as it arrives, and ``truth``; where a revolution ends ``meter``, ``cmv``, ``meters/…``
+        and ``site/state``; where one begins ``applied`` for all that took effect; ``tacho``, ``odom`` and ``fix``
+        where such sensors are chosen; ``exciter/state`` on change and 10 times a simulated second; ``faults``,
+        ``machine`` and ``soil`` at the start and on change.
 
         Parameters
         ----------
@@ -167,6 +166,7 @@ class Emulator:
                 out.append(self._site_state(block, truth))
             if begins:
                 out += [messages.applied_change(it, stamp_ns) for it in self.session.applied()]
+            out += self.instruments.messages(block, self.start_ns)
             self._add_state(out, block, stamp_ns, begins=begins)
             if begins:
                 self._add_facts(out, stamp_ns)
@@ -178,7 +178,7 @@ class Emulator:
         return [it for reading in self._readings for it in imu(reading, self.start_ns, decimation)]
 
     def command(self, *, vibrate: bool, frequency_hz: float, amplitude_m: float) -> None:
-        """Command the exciter; takes effect at the next multiple of 128 samples.
+        """Command the exciter; takes effect at the next multiple of 128 samples, unless a fault loses it.
 
         Raises
         ------
@@ -187,6 +187,8 @@ class Emulator:
         """
         try:
             with self._lock:
+                if self.instruments.faults.link_frozen:
+                    return
                 self.session.command_exciter(
                     vibrate=vibrate, frequency_hz=frequency_hz, amplitude_m=amplitude_m
                 )
@@ -205,7 +207,8 @@ class Emulator:
             If the speed is refused; the roller carries on as before.
         """
         with self._lock:
-            self.session.command_travel(speed_m_s)
+            if not self.instruments.faults.link_frozen:
+                self.session.command_travel(speed_m_s)
 
     def release(self) -> None:
         """Hand exciter and travel back to the scenario; without one the roller stops travelling."""
@@ -227,6 +230,53 @@ class Emulator:
         """
         with self._lock:
             self.session.change(values)
+
+    def inject(
+        self,
+        fault_id: str,
+        parameters: Mapping[str, Value] | None = None,
+        *,
+        span: Span | None = None,
+    ) -> int:
+        """Let a fault be active from the next multiple of 128 samples on, and return its handle.
+
+        Parameters
+        ----------
+        fault_id : str
+            Of the catalogue, as in ``bias_step``.
+        parameters : mapping
+            What differs from the fault's defaults.
+        span : Span
+            How long: time, revolutions or way; until it is cleared when not given.
+
+        Raises
+        ------
+        FaultRefused
+            If there is no such fault, nothing that it acts on, or another one that excludes it.
+        ParameterError
+            If a parameter is unknown or its value refused.
+        """
+        with self._lock:
+            return self.instruments.faults.inject(fault_id, parameters, span)
+
+    def clear(self, handle: int | None = None) -> None:
+        """End a fault at the next multiple of 128 samples, a scheduled one for good.
+
+        Parameters
+        ----------
+        handle : int or None
+            Which; None: all that were injected.
+
+        Raises
+        ------
+        FaultRefused
+            If there is none of this handle.
+        """
+        with self._lock:
+            if handle is None:
+                self.instruments.faults.clear_all()
+            else:
+                self.instruments.faults.clear(handle)
 
     def refuse(self, code: Refusal, reason: str) -> None:
         """Let ``exciter/state`` say, from the next block to the next accepted command, what was refused.

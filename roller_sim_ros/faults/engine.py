@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from itertools import combinations
 from typing import Any
 
 import numpy as np
@@ -29,7 +28,7 @@ from roller_sim_ros.faults.load import Load
 from roller_sim_ros.faults.lost_pulse import LostPulse
 from roller_sim_ros.faults.schedule import Scheduled, Span, When, surely_overlap
 from roller_sim_ros.faults.stale_position import StalePosition
-from roller_sim_ros.parameters import SAMPLES_PER_REVOLUTION, Value
+from roller_sim_ros.parameters import SAMPLES_PER_REVOLUTION, ParameterError, Value
 from roller_sim_ros.sensors import Slot
 from roller_sim_ros.session import Block, Moment
 from roller_sim_ros.site.streams import stream
@@ -117,8 +116,8 @@ class FaultEngine:
 
     Raises
     ------
-    FaultRefused, ParameterError
-        If a scheduled fault cannot be.
+    ParameterError
+        If a scheduled fault cannot be; `name` is ``faults[0].id`` or ``faults[0].parameters.…``.
     """
 
     def __init__(
@@ -133,14 +132,8 @@ class FaultEngine:
         self._before = (0.0, 0.0)
         self.active: tuple[ActiveFault, ...] = ()
         self.held_back: tuple[str, ...] = ()
-        for item in scheduled:
-            self._enter(item.id, item.parameters, item.when, None)
-        _check_together(self._entries)
-
-    @property
-    def busy(self) -> bool:
-        """Whether a fault is active, or was in one of the last revolutions."""
-        return any(self._history.values())
+        for index, item in enumerate(scheduled):
+            self._schedule(f"faults[{index}]", item)
 
     def inject(
         self,
@@ -255,6 +248,16 @@ class FaultEngine:
     def _of(self, revolution: int, kind: type[Fault]) -> list[ActiveFault]:
         return [item for item in self._history.get(revolution, ()) if isinstance(item.fault, kind)]
 
+    def _schedule(self, at: str, item: Scheduled) -> None:
+        try:
+            self._enter(item.id, item.parameters, item.when, None)
+            _check_together(self._entries)
+        except FaultRefused as error:
+            raise ParameterError(f"{at}.id", item.id, str(error)) from None
+        except ParameterError as error:
+            name = f"{at}.parameters.{error.name}"
+            raise ParameterError(name, error.value, error.reason) from None
+
     def _enter(
         self, fault_id: str, parameters: Mapping[str, Value], when: When | None, span: Span | None
     ) -> int:
@@ -313,14 +316,12 @@ def _begun(entry: _Entry, moment: Moment) -> ActiveFault:
 
 
 def _check_together(entries: Sequence[_Entry]) -> None:
-    """Refuse faults that exclude each other where their windows are sure to overlap."""
-    for first, second in combinations(entries, 2):
-        reason = conflict(first.fault, second.fault)
-        if reason and surely_overlap(first.when, second.when):
-            raise FaultRefused(
-                f"{first.fault.group} (handle {first.handle}) and {second.fault.group} (handle "
-                f"{second.handle}) are scheduled together: {reason}"
-            )
+    """Refuse the last of some faults where it is sure to overlap with one that excludes it."""
+    *others, last = entries
+    for other in others:
+        reason = conflict(other.fault, last.fault)
+        if reason and surely_overlap(other.when, last.when):
+            raise FaultRefused(f"overlaps with fault {other.handle}: {reason}")
 
 
 def _newness(entry: _Entry) -> tuple[bool, int]:

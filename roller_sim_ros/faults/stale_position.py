@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import ClassVar
+from typing import Any, ClassVar, TypeVar
 
 from roller_sim_ros.faults.fault import Behaviour, Expectation, Fault, Installed, Stage
 from roller_sim_ros.parameters.quantity import parameter
-from roller_sim_ros.sensors import Slot
+from roller_sim_ros.sensors import Fix, Slot, Travelled
+
+Measured = TypeVar("Measured", Fix, Travelled)
 
 
 @dataclass(frozen=True)
@@ -39,3 +41,28 @@ class StalePosition(Fault):
     def expectation(self) -> Expectation:
         """The meter's value does not need the position; where it is put on a map is another matter."""
         return Expectation(Behaviour.UNAFFECTED, tolerance_percent=0.1)
+
+
+class Held:
+    """The last measurement that was not stale."""
+
+    def __init__(self) -> None:
+        self._last: Any = None
+
+    def follow(self, measured: Measured, fault: StalePosition | None) -> Measured:
+        """Return a measurement as it is delivered; it has a field ``time_s``.
+
+        Parameters
+        ----------
+        measured : named tuple
+            As the sensor has it.
+        fault : StalePosition, optional
+            The fault, while it is active.
+        """
+        if fault is None or self._last is None:
+            self._last = measured
+            return measured
+        held: Measured = self._last
+        if fault.new_stamps:
+            held = held._replace(time_s=measured.time_s)
+        return held

@@ -11,10 +11,13 @@ from typing import Any, ClassVar, TypeVar
 from roller_sim_ros.parameters import ParameterError, ParameterGroup, Value
 from roller_sim_ros.parameters.quantity import declared, parameter
 from roller_sim_ros.sensors.accelerometer import Accelerometer
+from roller_sim_ros.sensors.gnss import Gnss, GnssSheet
 from roller_sim_ros.sensors.ideal import IdealAccelerometer
+from roller_sim_ros.sensors.odometry import Odometry, OdometrySheet
 from roller_sim_ros.sensors.presets import MEMS_10G, MEMS_50G, Preset
 from roller_sim_ros.sensors.sensor import Kind
 from roller_sim_ros.sensors.sheet import AccelerometerSheet
+from roller_sim_ros.sensors.tacho import Tacho, TachoSheet
 
 Group = TypeVar("Group", bound=ParameterGroup)
 
@@ -117,5 +120,10 @@ SENSORS: dict[str, SensorModel] = {
     "accelerometer": _accelerometer(Preset("an accelerometer without errors but those stated")),
     "mems_50g": _accelerometer(MEMS_50G),
     "mems_10g": _accelerometer(MEMS_10G),
+    "tacho": SensorModel("one pulse per revolution", Slot.TACHO, TachoSheet, Tacho),
+    "odometry": SensorModel(
+        "travel speed, and the way that it adds up to", Slot.SPEED, OdometrySheet, Odometry
+    ),
+    "gnss": SensorModel("position by satellite, RTK", Slot.POSITION, GnssSheet, Gnss),
 }
 """All sensors by the name that a scenario gives them."""

@@ -160,6 +160,39 @@ SITE_STATE = Topic(
     _REVOLUTIONS,
     "per revolution",
 )
+TACHO = Topic(
+    "tacho",
+    "roller_sim_ros/msg/TachoPulse",
+    Direction.PUBLISHED,
+    "pulse of the eccentric's tacho, if there is one: time and phase, s, rad",
+    _REVOLUTIONS,
+    "per revolution",
+)
+ODOMETRY = Topic(
+    "odom",
+    "nav_msgs/msg/Odometry",
+    Direction.PUBLISHED,
+    "travel speed and dead reckoning, if there is a sensor: m/s, m, odom → base_link",
+    _fixed(20),
+    "20 Hz",
+)
+FIX = Topic(
+    "fix",
+    "sensor_msgs/msg/NavSatFix",
+    Direction.PUBLISHED,
+    "position by satellite, if there is a receiver: deg, m",
+    _fixed(10),
+    "10 Hz",
+)
+FAULTS = Topic(
+    "faults",
+    "roller_sim_ros/msg/FaultStates",
+    Direction.PUBLISHED,
+    "faults that are active, and what a correct meter does under each",
+    _fixed(1),
+    "at start and on change",
+    durability="transient_local",
+)
 MACHINE = Topic(
     "machine",
     "diagnostic_msgs/msg/DiagnosticStatus",
@@ -213,6 +246,10 @@ TOPICS: tuple[Topic, ...] = (
     TRUTH,
     APPLIED,
     SITE_STATE,
+    TACHO,
+    ODOMETRY,
+    FIX,
+    FAULTS,
     MACHINE,
     SOIL,
     DIAGNOSTICS,

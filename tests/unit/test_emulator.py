@@ -49,7 +49,7 @@ def stamp_ns(message: Any) -> int:
 
 def test_messages_come_in_their_order() -> None:
     roller = emulator()
-    assert topics(roller.advance(64)) == [*BLOCKS, "exciter/state", "machine", "soil"]
+    assert topics(roller.advance(64)) == [*BLOCKS, "faults", "exciter/state", "machine", "soil"]
     assert topics(roller.advance(64)) == [*BLOCKS, *METERS, "site/state"]
     roller.command(vibrate=True, frequency_hz=28.0, amplitude_m=1.5e-3)
     roller.change({"soil.shear_modulus_pa": 80e6})
