@@ -109,6 +109,25 @@ def test_amplitude_is_that_of_the_parameters_when_the_exciter_says_nothing(
     assert {column: found[column]["last"] for column in COLUMNS} == recorded_last(run)
 
 
+def test_amplitude_is_not_guessed_before_the_exciter_tells_it(
+    bag: Bag, run: list[Message], tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    late = START_NS + round(20.5 / 28.0 * 1e9)
+    kept = [
+        item
+        for item in without(run, "truth")
+        if item.topic != "exciter/state" or item.stamp_ns > late
+    ]
+    assert main([str(bag(kept)), "--csv", str(tmp_path / "out.csv")]) == 0
+    capsys.readouterr()
+    with (tmp_path / "out.csv").open(newline="") as file:
+        known = [bool(row["k_s_n_m"]) for row in csv.DictReader(file)]
+    # Told ten times a second, the first time after revolution 20 within the next three.
+    first = known.index(True)
+    assert 20 + WINDOW - 1 < first <= 23 + WINDOW
+    assert all(known[first:])
+
+
 def test_imu_stream_has_no_phase_and_so_only_ccv(
     bag: Bag, run: list[Message], capsys: pytest.CaptureFixture[str]
 ) -> None:
