@@ -114,7 +114,9 @@ class LaneSite:
     ) -> None:
         if plan.start_m is not None and plan.start_m > lane.length_m:
             raise ParameterError(
-                "start_m", plan.start_m, f"must be on the lane, which is {lane.length_m:g} m long"
+                "travel.start_m",
+                plan.start_m,
+                f"must be on the lane, which is {lane.length_m:g} m long",
             )
         self._cells = lane.cells
         self._cell_m = lane.length_m / lane.cells
