@@ -13,6 +13,7 @@ class _Waiting(NamedTuple):
     reading: Reading
     due_s: float
     due_sample: int
+    held: bool
 
 
 class Delivery:
@@ -54,22 +55,23 @@ class Delivery:
             late_s = self._latency_s + parcel.late_s
             # A link keeps its order: what follows something late is not there before it.
             due_s = self._last_due_s = max(self._last_due_s, now_s + late_s if late_s else 0.0)
-            self._waiting.append(
-                _Waiting(parcel.reading, due_s, max(now_sample, parcel.held_until))
-            )
+            held = parcel.held_until > now_sample
+            due_sample = parcel.held_until if held else now_sample
+            self._waiting.append(_Waiting(parcel.reading, due_s, due_sample, held))
 
     def due(self, now_s: float, now_sample: int) -> list[Reading]:
         """Return what is due by now, and forget it."""
         if not self._waiting:
             return []
-        self._waiting.sort(key=_due_sample)
+        self._waiting.sort(key=_place)
         ready = [item for item in self._waiting if _is_due(item, now_s, now_sample)]
         self._waiting = [item for item in self._waiting if not _is_due(item, now_s, now_sample)]
         return [item.reading for item in ready]
 
 
-def _due_sample(item: _Waiting) -> int:
-    return item.due_sample
+def _place(item: _Waiting) -> tuple[int, bool]:
+    """What was held back comes after what was made in the meantime."""
+    return item.due_sample, item.held
 
 
 def _is_due(item: _Waiting, now_s: float, now_sample: int) -> bool:

@@ -9,6 +9,9 @@ from typing import Protocol
 from roller_sim_ros.parameters import ParameterError, Value
 from roller_sim_ros.session import Moment
 
+ROUNDING = 1e-9
+"""Times and ways that are so little short of a span have reached its end."""
+
 
 class When(Protocol):
     """A condition on the moment at which a revolution begins."""
@@ -82,11 +85,11 @@ class Until:
         span, begin = self.span, self.begin
         way_m = abs(moment.position.chainage_m - begin.position.chainage_m)
         return (
-            (span.duration_s is None or moment.time_s - begin.time_s < span.duration_s)
+            (span.duration_s is None or moment.time_s - begin.time_s < span.duration_s - ROUNDING)
             and (
                 span.revolutions is None or moment.revolution - begin.revolution < span.revolutions
             )
-            and (span.distance_m is None or way_m < span.distance_m)
+            and (span.distance_m is None or way_m < span.distance_m - ROUNDING)
         )
 
 
