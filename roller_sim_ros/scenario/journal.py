@@ -65,7 +65,10 @@ class SiteMap:
 
     def of_pass(self, number: int) -> SiteMap:
         """Return the revolutions of one pass."""
-        inside = self.pass_number == number
+        return self.where(self.pass_number == number)
+
+    def where(self, inside: NDArray[np.bool_]) -> SiteMap:
+        """Return some of the revolutions."""
         arrays = {
             item.name: getattr(self, item.name)[inside]
             for item in fields(self)
