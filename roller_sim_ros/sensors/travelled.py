@@ -10,6 +10,9 @@ from roller_sim_ros.sensors.clock import SAMPLES, Clock
 from roller_sim_ros.session.block import Block
 from roller_sim_ros.site import Position
 
+ROUNDING = 1e-9
+"""Of a period: a moment that is so little before the end of a block is the next one's."""
+
 
 class Station(NamedTuple):
     """A moment at which a sensor of the travel measures.
@@ -62,7 +65,7 @@ class Stations:
             self._position = position
         clock = self._clock
         end = block.first_sample % SAMPLES + len(block)
-        before = math.ceil(clock.time_s(end) * self._rate_hz)
+        before = math.ceil(clock.time_s(end) * self._rate_hz - ROUNDING)
         for number in range(self._next, before):
             time_s = number / self._rate_hz
             way_m = self._position.speed_m_s * (time_s - clock.start_s)
