@@ -11,8 +11,11 @@ from collections.abc import Iterable, Mapping, Sequence
 from decimal import Decimal
 from pathlib import Path
 
+from roller_sim_ros.faults import FAULTS
 from roller_sim_ros.parameters import PARAMETERS, Configuration, Pacing, Quantity, Value
 from roller_sim_ros.parameters.configuration import GROUPS
+from roller_sim_ros.parameters.quantity import ParameterGroup, declared
+from roller_sim_ros.sensors import SENSORS
 from roller_sim_ros.wire.topics import TOPICS, Direction, Topic
 
 ROOT = Path(__file__).resolve().parent.parent
@@ -25,6 +28,28 @@ SOILS = {
 }
 """What it is, G in Pa, p in m."""
 
+SENSORS_TEXT = """\
+There is one sensor for each thing measured; the accelerometer is an ideal one where none is chosen. Truth goes
+out beside them, untouched. Every error of every sensor has random numbers of its own, from the run's seed: one
+switched on changes no other, and the size of the blocks changes no bit.
+
+The accelerometer is a chain: specific force, mounting angle and cross-axis, sensitivity, bias and drift (exact
+Gauss-Markov), analogue low-pass (exact for straight lines from sample to sample, also where the sample period
+changes), sampling, noise (the process that the low-pass makes of white noise), faults, range, converter. It
+clips, and never wraps around; what is no number has the most negative count. With a sample rate of its own the
+low-passed signal is interpolated between the model's samples by a windowed sinc: what folds back is what the
+low-pass lets through, what interpolation adds is below 1e-3 up to order 40. The model has 128 samples per
+revolution and knows nothing beyond order 64. A sample comes once the model is 12 samples further. The built-in
+meter needs samples that go with the eccentric; at a fixed rate it has no value."""
+
+FAULTS_TEXT = """\
+Scheduled in a scenario by time, chainage, pass or revolution, or injected and cleared while the roller runs. A
+fault begins and ends where a revolution begins; all that are active are on the topic `faults`. Only faults of
+the exciter change the true motion. *Unaffected* means against the true CMV, a flagged value excepted; *flagged*
+means by status, NaN or silence; what is expected is of the default parameters. What cannot be is refused with
+the reason; where nobody can know whether two that exclude each other will meet, the later one is held back, and
+`faults` says so. What comes twice or in the wrong order are messages, so it goes by the size of the blocks."""
+
 
 def contents() -> dict[str, str]:
     """Return {path from the root: text} of all generated files."""
@@ -32,6 +57,8 @@ def contents() -> dict[str, str]:
     files = {
         "docs/parameters.md": parameters_page(),
         "docs/topics.md": topics_page(),
+        "docs/sensors.md": sensors_page(),
+        "docs/faults.md": faults_page(),
         "README.md": readme((ROOT / "README.md").read_text(encoding="utf-8")),
         "config/paper_roller.yaml": parameter_file(
             "The paper's 10 t roller ('Roller data') at its nominal frequency and amplitude.",
@@ -134,6 +161,80 @@ def topics_page() -> str:
         lines += ["", f"## {title}", ""]
         lines += _table(("topic", "type", "rate", "QoS", "what it says"), rows)
     return "\n".join([*lines, ""])
+
+
+def sensors_page() -> str:
+    """Return the page of all sensors: their parameters, and presets with the source of each value."""
+    lines = [
+        "# Sensors",
+        "",
+        f"Generated {GENERATED} in `roller_sim_ros/sensors/`.",
+        "",
+        SENSORS_TEXT,
+        "",
+    ]
+    rows = [(f"`{name}`", model.slot.value, model.doc) for name, model in SENSORS.items()]
+    lines += _table(("name", "measures", "what it is"), rows)
+    groups = dict.fromkeys(model.group for model in SENSORS.values())
+    for group in groups:
+        names = ", ".join(f"`{name}`" for name, model in SENSORS.items() if model.group is group)
+        lines += ["", f"## Parameters of {names}", ""]
+        lines += _table(("name", "default", "unit", "bounds", "what it is"), _group_rows(group))
+    for name, model in SENSORS.items():
+        if model.preset is not None and model.preset.stated:
+            stated = [
+                (f"`{key}`", f"{it.value:.6g}", it.source, "yes" if it.verified else "no")
+                for key, it in model.preset.stated.items()
+            ]
+            lines += ["", f"## `{name}`: {model.preset.doc}", ""]
+            lines += _table(("parameter", "value", "source", "read there"), stated)
+    return "\n".join([*lines, ""])
+
+
+def faults_page() -> str:
+    """Return the page of all faults: where they act, their parameters, what a correct meter does."""
+    lines = [
+        "# Faults",
+        "",
+        f"Generated {GENERATED} in `roller_sim_ros/faults/`.",
+        "",
+        FAULTS_TEXT,
+        "",
+    ]
+    rows = [
+        (
+            f"`{name}`",
+            fault.stage.value,
+            _summary(fault),
+            fault().expectation().text(),
+            ", ".join(f"`{other}`" for other in fault.excludes),
+        )
+        for name, fault in FAULTS.items()
+    ]
+    lines += _table(("id", "stage", "what it is", "a correct meter is", "excludes"), rows)
+    for name, fault in FAULTS.items():
+        parameters = _group_rows(fault)
+        if parameters:
+            lines += ["", f"## Parameters of `{name}`", ""]
+            lines += _table(("name", "default", "unit", "bounds", "what it is"), parameters)
+    return "\n".join([*lines, ""])
+
+
+def _group_rows(group: type[ParameterGroup]) -> list[tuple[str, ...]]:
+    return [
+        (
+            f"`{name}`",
+            _value_text(default),
+            quantity.unit,
+            _bounds(quantity, default).replace("|", "\\|"),
+            quantity.doc,
+        )
+        for name, quantity, default in declared(group)
+    ]
+
+
+def _summary(declaration: type) -> str:
+    return (declaration.__doc__ or "").strip().splitlines()[0]
 
 
 def parameter_file(title: str, configuration: Configuration, groups: Sequence[str]) -> str:
