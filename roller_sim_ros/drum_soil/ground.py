@@ -138,7 +138,9 @@ class Ground(ABC):
         constants[at.OMEGA] = revolution.omega
         constants[at.MASS] = mass
         constants[at.STATIC_LOAD] = load
-        constants[at.PLASTIC_COMPLIANCE] = soil.plastic_parameter_m / load
+        constants[at.PLASTIC_COMPLIANCE] = self._plastic_compliance(
+            soil, revolution.sample_period_s
+        )
         constants[at.STATIC_COMPLIANCE] = self.strip.static_compliance
         start, end = revolution.start_acceleration, revolution.end_acceleration
         constants[at.START_ACCELERATION] = start
@@ -151,6 +153,11 @@ class Ground(ABC):
         if changed:
             self._change(soil, revolution)
         self._soil = soil
+
+    def _plastic_compliance(self, soil: Soil, sample_period_s: float) -> float:
+        """Return p/F_stat, m/N, as the kernel is to take it."""
+        del sample_period_s
+        return soil.plastic_parameter_m / self._machine.static_load_n
 
     def _set_angles(self, revolution: Revolution) -> None:
         angle = (

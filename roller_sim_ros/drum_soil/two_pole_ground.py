@@ -15,6 +15,9 @@ from roller_sim_ros.exciter import Revolution
 from roller_sim_ros.half_space.two_pole import two_pole_frequency
 from roller_sim_ros.parameters import Soil
 
+RESOLVED_RAD = 5.0
+"""Radians a sample that drum and soil may swing on the plastic layer; from 8 on the step is unstable."""
+
 
 class TwoPoleGround(Ground):
     """Drum on the two-pole half space: the surface's depth and rate are its whole history."""
@@ -34,6 +37,14 @@ class TwoPoleGround(Ground):
             self._half_space.frequency_factor,
         )
         return omega, self._half_space.quality_factor, self.strip.static_compliance
+
+    def _plastic_compliance(self, soil: Soil, sample_period_s: float) -> float:
+        # In loading the plastic layer is a spring between drum and soil. Stiffer than a few radians a sample it
+        # cannot be followed, and need not be: with the defaults that is p below 0.05 mm.
+        omega, _, compliance = self._constants_on(soil)
+        inverse_masses = omega * omega * compliance + 1.0 / self._machine.drum_mass_kg
+        least = inverse_masses * (sample_period_s / RESOLVED_RAD) ** 2
+        return max(super()._plastic_compliance(soil, sample_period_s), least)
 
     def _change(self, soil: Soil, revolution: Revolution) -> None:
         constants, state = self._constants, self.state

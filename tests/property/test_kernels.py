@@ -20,8 +20,8 @@ from roller_sim_ros.session import Block, Session
 MODELS = ("exact", "rational", "two-pole")
 FREQUENCIES = st.floats(0.0, 60.0)
 AMPLITUDES = st.floats(0.0, 4e-3)
-SHEAR_MODULI = st.floats(3e6, 5e8)
-PLASTIC_PARAMETERS = st.floats(5e-5, 5e-3)
+SHEAR_MODULI = st.floats(2e6, 1e9)
+PLASTIC_PARAMETERS = st.floats(2e-5, 2e-2)
 
 EVENTS = st.lists(
     st.one_of(
