@@ -37,6 +37,7 @@ DRIFT_RAD = 0.3
 
 WINDOW = "meter.window_revolutions"
 NOISE_FLOOR = "meter.noise_floor_m_s2"
+PERIOD_TOLERANCE = "meter.period_tolerance"
 SAMPLES = "sampling.samples_per_revolution"
 
 RECORDED, TRUE = "recorded", "true"
@@ -103,7 +104,11 @@ class _Pass:
         if floor is None:
             floor = self._parameter(NOISE_FLOOR)
         self._meter = CompactionMeter(
-            window, floor, count, drum=None if facts is None else facts.drum
+            window,
+            floor,
+            count,
+            drum=None if facts is None else facts.drum,
+            period_tolerance=self._parameter(PERIOD_TOLERANCE),
         )
         self._amplitude_m = math.nan if facts is None else facts.amplitude_m
         self._kept = ExcerptKeeper(count)

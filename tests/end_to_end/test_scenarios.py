@@ -392,3 +392,23 @@ def test_a_map_that_cannot_be_written_is_told(
     folder = tmp_path if name.endswith("xyz") else tmp_path / "none"
     assert run(short, "--revolutions", 40, "--map", folder / name) == 1
     assert re.search(rf"{name}: cannot be (written|drawn)", capsys.readouterr().err)
+
+
+def test_the_analysis_of_a_trace_knows_the_tolerance_of_its_run(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    # On this slope the motion repeats within 5 %, not within 1 %.
+    path, trace = tmp_path / "slope.yaml", tmp_path / "slope.mcap"
+    path.write_text(
+        "lane: {length_m: 6}\n"
+        "ground: {shear_modulus_mpa: 25, features: [{kind: gradient, shear_modulus_mpa: 38}]}\n"
+        "parameters: {meter.period_tolerance: 0.05}\n",
+        encoding="utf-8",
+    )
+    assert run(path, "--record", trace) == 0
+    capsys.readouterr()
+    assert commands.main(["analyze", str(trace), "--json", "-"]) == 0
+    report = json.loads(capsys.readouterr().out)
+    assert set(report["recorded_meter"]["disagreements"].values()) == {0}
+    assert set(report["truth"]["disagreements"].values()) == {0}
+    assert report["periods"]["1"] > 0.9
