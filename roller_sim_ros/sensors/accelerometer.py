@@ -10,6 +10,7 @@ from roller_sim_ros.sensors.bandwidth import LowPass
 from roller_sim_ros.sensors.bias import Bias
 from roller_sim_ros.sensors.clock import Clock
 from roller_sim_ros.sensors.converter import Converter
+from roller_sim_ros.sensors.kernels import warm_up
 from roller_sim_ros.sensors.mounting import Mounting
 from roller_sim_ros.sensors.noise import Noise
 from roller_sim_ros.sensors.sampling import FixedRate, Instants, Synchronous
@@ -34,6 +35,7 @@ class Accelerometer:
     """
 
     def __init__(self, sheet: AccelerometerSheet, seed: int = 0) -> None:
+        warm_up()
         numbers = partial(_stream, seed)
         self.latency_s = sheet.latency_s
         self._clock = Clock(sheet.clock_skew_ppm)

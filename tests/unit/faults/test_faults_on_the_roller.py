@@ -284,11 +284,11 @@ def test_the_droop_follows_the_power_of_the_revolution_before() -> None:
 @pytest.mark.parametrize("fault", [name for name in FAULTS if name != "saturation"])
 def test_the_built_in_meter_does_what_each_fault_expects(fault: str) -> None:
     emulator = roller()
-    run(emulator, 150)
+    run(emulator, 60)
     emulator.inject(fault)
     expected = make_fault(fault).expectation()
     values = []
-    for revolution in range(60):
+    for revolution in range(40):
         messages = emulator.advance(128)
         values += [(revolution, item, emulator.truth_value.cmv) for item in of(messages, "meter")]
     flagged = [revolution for revolution, item, _ in values if item.status or math.isnan(item.cmv)]
