@@ -30,7 +30,7 @@ _FUNCTIONS = {"two-pole": "two_pole", "exact": "exact"}
 
 def reference(model: str, call: KernelCall) -> Callable[[], None]:
     """Return the loop in C that does what the kernel call does, on its arrays."""
-    function = getattr(_library(), _FUNCTIONS[model])
+    function = getattr(compiled(_SOURCE), _FUNCTIONS[model])
     function.restype = None
     arguments: list[object] = [ctypes.c_long(call.samples), ctypes.c_long(0)]
     for name in _ARRAYS[model]:
@@ -50,15 +50,16 @@ def reference(model: str, call: KernelCall) -> Callable[[], None]:
     return run
 
 
-@lru_cache(maxsize=1)
-def _library() -> ctypes.CDLL:
+@lru_cache(maxsize=4)
+def compiled(source: Path) -> ctypes.CDLL:
+    """Return the library that a source in C gives."""
     with tempfile.TemporaryDirectory() as folder:
-        compiled = Path(folder) / "reference_loop.so"
-        command = [COMPILER, *FLAGS, "-shared", "-fPIC", "-o", str(compiled), str(_SOURCE), "-lm"]
+        library = Path(folder) / f"{source.stem}.so"
+        command = [COMPILER, *FLAGS, "-shared", "-fPIC", "-o", str(library), str(source), "-lm"]
         try:
             found = subprocess.run(command, capture_output=True, text=True, check=False)
         except OSError as error:
             raise BenchmarkError(f"no C compiler: {error}") from error
         if found.returncode:
             raise BenchmarkError(f"{' '.join(command)} failed:\n{found.stderr}")
-        return ctypes.CDLL(str(compiled))
+        return ctypes.CDLL(str(library))

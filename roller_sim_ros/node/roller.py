@@ -22,7 +22,7 @@ from roller_sim_ros.node.qos import overridable, overrides_of, profile
 from roller_sim_ros.node.realtime import request_scheduling
 from roller_sim_ros.node.recording import Recording, receiver
 from roller_sim_ros.node.report import Drive, RecordingReport, Report, diagnostics
-from roller_sim_ros.node.warm_up import warm_up
+from roller_sim_ros.node.warm_up import try_out, warm_up
 from roller_sim_ros.parameters import PARAMETERS, Configuration, ParameterError, Value
 from roller_sim_ros.session import CommandRefused, ExciterCommand, ExciterStatus, Refusal
 from roller_sim_ros.wire import messages, topics
@@ -176,14 +176,13 @@ class Roller:
 
         Raises
         ------
-        ParameterError
-            As `check`.
+        RollerSimError
+            As `check`, or if the roller cannot be computed with them.
         """
         configuration = self.check(values)
+        try_out(configuration)
         if self._pacer is not None:
             self._pacer.emulator.change(values)
-        else:
-            Emulator(configuration, start_ns=0)  # refuses what it would refuse at the start
         self.configuration = configuration
         if any(name in COMMANDED for name in values):
             self._input.accepted()

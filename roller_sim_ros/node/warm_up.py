@@ -4,8 +4,11 @@ from __future__ import annotations
 
 from dataclasses import replace
 
+import numpy as np
+
 from roller_sim_ros import session
 from roller_sim_ros.emulation import Emulator
+from roller_sim_ros.errors import RollerSimError
 from roller_sim_ros.parameters import SAMPLES_PER_REVOLUTION, Configuration
 from roller_sim_ros.wire import messages
 from roller_sim_ros.wire.types import decode
@@ -31,3 +34,24 @@ def warm_up(configuration: Configuration) -> None:
     command = messages.exciter_command(session.ExciterCommand(True, 28.0, 1e-3), 0)
     decode(command.data, command.type_name)
     messages.diagnostic_array([messages.Diagnostic("warm-up", values={"blocks": 0})], 0)
+
+
+def try_out(configuration: Configuration) -> None:
+    """Compute the first block of a roller, so that a running one cannot fail when it becomes like that.
+
+    What takes long to work out of the parameters is in the caches then.
+
+    Raises
+    ------
+    RollerSimError
+        If it cannot be emulated or what comes out is no number.
+    """
+    emulator = Emulator(configuration, start_ns=0)
+    try:
+        emulator.advance(configuration.pacing.samples_per_message)
+    except (ArithmeticError, ValueError) as error:
+        raise RollerSimError(f"the roller cannot be computed with that: {error}") from error
+    block = emulator.block
+    assert block is not None  # there is one after every advance
+    if not np.isfinite(block.acceleration_vertical).all():
+        raise RollerSimError("the roller cannot be computed with that: its motion is no number")
