@@ -84,6 +84,9 @@ def _body_term(side: Side, u: FloatArray, tau: FloatArray, kappa_squared: comple
     c, t = side.distance, side.tangent(u)
     slope = -kappa_squared if kappa_squared.imag else -kappa_squared.real
     w_squared = tau * tau + slope * u
+    if not isinstance(slope, complex):
+        # At the shear front a root kappa next to 1, Poisson's ratio next to 0, leaves a rounding error below nothing.
+        w_squared = np.maximum(w_squared, 0.0)
     w = np.sqrt(w_squared)
     phi = np.log((tau + w) / np.sqrt(u))
     if isinstance(slope, complex):

@@ -88,11 +88,13 @@ def test_parameter_cannot_be_deleted_or_invented(visitor):
 
 
 def test_whole_number_is_taken_for_a_float(visitor):
+    applied = visitor.listen("applied", AppliedChange)
     before = visitor.get_parameter("soil.shear_modulus_pa")
     result = visitor.set_parameter("soil.shear_modulus_pa", 60000000)
     assert result.successful, result.reason
     assert visitor.get_parameter("soil.shear_modulus_pa") == 60e6
     assert visitor.set_parameter("soil.shear_modulus_pa", before).successful
+    visitor.spin_until(lambda: applied and applied[-1].value == before)
 
 
 def other_value(name: str) -> object:

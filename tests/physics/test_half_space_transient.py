@@ -225,3 +225,13 @@ def test_table_is_kept_and_read_only():
 def test_bad_arguments_are_named(aspect_ratio, poisson_ratio, named):
     with pytest.raises(HalfSpaceError, match=named):
         step_response(aspect_ratio, poisson_ratio)
+
+
+@pytest.mark.parametrize("poisson_ratio", [1e-12, 1e-9, 1e-7, 9.810945182897696e-05])
+def test_a_poisson_ratio_next_to_zero_is_next_to_that_of_zero(poisson_ratio: float) -> None:
+    # A root of the Rayleigh polynomial comes to lie on the shear front there.
+    tau = np.linspace(0.0, 5.0, 400)
+    at_zero = step_and_ramp(tau, 7.0, 0.0)
+    near = step_and_ramp(tau, 7.0, poisson_ratio)
+    for values, expected in zip(near, at_zero, strict=True):
+        assert values == pytest.approx(expected, abs=poisson_ratio + 1e-11)
