@@ -173,6 +173,7 @@ def test_the_trace_holds_the_node_s_topics_and_the_run_s_samples(
         **{topic.resolved(): 70 for topic in FURTHER_METERS},
         "/site/state": 70,
         "/exciter/state": reader.topics["/exciter/state"].messages,
+        "/faults": 1,
         "/machine": 1,
         "/soil": 1,
         "/parameter_events": 1,
