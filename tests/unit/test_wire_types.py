@@ -72,7 +72,7 @@ def test_offered_profiles_mean_what_the_table_says(topic: Topic) -> None:
     qos = topic.qos(Pacing())
     (parsed,) = parse_qos(qos.offered_profiles())
     assert parsed.reliability is QosReliability.RELIABLE
-    transient = topic.name in ("machine", "soil")
+    transient = topic.name in ("faults", "machine", "soil")
     assert parsed.durability is (
         QosDurability.TRANSIENT_LOCAL if transient else QosDurability.VOLATILE
     )

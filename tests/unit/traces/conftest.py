@@ -13,13 +13,14 @@ from mcap.writer import CompressionType, Writer
 
 from roller_sim_ros.meters import MeterValue, Mode, Status, TruthValue
 from roller_sim_ros.parameters import Configuration
-from roller_sim_ros.sensors import IdealAccelerometer
+from roller_sim_ros.sensors import Fix, IdealAccelerometer, Pulse, Travelled
+from roller_sim_ros.sensors.geodesy import Geodetic
 from roller_sim_ros.session import Applied, Block, ExciterCommand, ExciterStatus, Master
 from roller_sim_ros.site import Position
 from roller_sim_ros.traces.metadata import run_metadata
 from roller_sim_ros.traces.registration import register_all
 from roller_sim_ros.traces.writer import TraceWriter
-from roller_sim_ros.wire import messages
+from roller_sim_ros.wire import instruments, messages
 from roller_sim_ros.wire.imu import imu
 from roller_sim_ros.wire.messages import Message
 from roller_sim_ros.wire.types import schema
@@ -65,6 +66,10 @@ def make_messages(blocks: int) -> list[Message]:
         messages.exciter_state(status, START_NS),
         messages.applied_change(Applied(0, "exciter.frequency_hz", 28.0), START_NS),
         messages.diagnostic_array([messages.Diagnostic("pacing", values={"x": 1.5})], START_NS),
+        instruments.fault_states([], [], 0, START_NS),
+        instruments.tacho_pulse(Pulse(1, 0.01, 0.0, 1.0 / 28.0), START_NS),
+        instruments.odometry(Travelled(0.0, 0, 1.0, 0.01, 1.0, 0.02), START_NS),
+        instruments.fix(Fix(0.0, 0, Geodetic(59.0, 18.0, 20.0), (1e-4, 1e-4, 4e-4)), START_NS),
     ]
     sensor = IdealAccelerometer()
     for index in range(blocks):
