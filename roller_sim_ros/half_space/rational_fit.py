@@ -7,10 +7,9 @@ velocity, as that of the half space does, never with a jump (Sandström 1994, 'D
 elastic half space').
 
 1. |N - H D| <= t |D_before|, t least, repeated until D settles (Sanathanan and Koerner), with N(0) = D(0)
-   = 1. Further linear conditions keep every round's D stable and damped (the real part of D/D_before is
-   positive on two rays left of the imaginary axis, so D has as many zeros between them as D_before: all),
-   its zeros near (the sum of their real parts is bounded), i omega N/D_before of positive real part and the
-   dashpot of the first motion near the exact one. Each order starts from the solution two orders below.
+   = 1. Further linear conditions keep i omega N/D_before of positive real part, the zeros of D near (the sum
+   of their real parts is bounded) and the dashpot of the first motion near the exact one. A round that
+   loses stability is taken back half-way. Each order starts from the solution two orders below.
 2. With the poles fixed the residues are a true minimax problem, with the static value exact and the
    mobility i omega H of positive real part at all frequencies (passive).
 """
@@ -44,16 +43,15 @@ _EDGES = np.exp(2j * np.pi * np.arange(16) / 16)
 _REACH, _LOOSENESS, _SLACK = 4.0, 30.0, 0.03
 # Bounds of the dashpot of the first motion, over the exact one.
 _DASHPOT_BOUNDS = (0.5, 2.0)
-# Rays on which D is held away from zero, twice the damping that is then asked for: between its points the
-# condition is not seen.
-_RAY = np.geomspace(1e-2, 3e2, 180)
-_RAY_DAMPING = 2.0 * LEAST_DAMPING
-_MARGIN = 0.05
+# Where the first stage asks for passivity, over the end of the band.
+_AXIS = np.geomspace(1e-2, 3e2, 180)
+# Least leading coefficient of D over that of D_before: the degree is kept.
+_LEAST_LEADING = 0.05
 # Least Re(i omega H)(1 + 1/a0^2) where passivity is asked for; in between it is checked.
 _LEAST_MOBILITY = 1e-3
 _MOST_ROUNDS, _ROUNDS_ON_THE_WAY = 15, 3
-# Over the end of the band; apart, for a double pole has no partial fractions.
-_STARTING_POLES = np.array([-1.3, -1.8], dtype=np.complex128)
+# Over the end of the band, two for each further stage; apart, for a double pole has no partial fractions.
+_STARTING_POLES = np.array([-1.3, -1.8, -1.1, -2.1, -0.9, -2.5, -0.75, -3.0], dtype=np.complex128)
 _SETTLED = 1e-3
 _GOOD_ENOUGH = 1e-4
 
@@ -92,12 +90,19 @@ def fit(
     target = _target(aspect_ratio, poisson_ratio, order, highest_a0)
     scaled = _STARTING_POLES[: 2 - order % 2]
     while scaled.size < order:
-        scaled = np.append(_relocated(target, scaled, _ROUNDS_ON_THE_WAY), _STARTING_POLES)
+        scaled = np.append(
+            _relocated(target, scaled, _ROUNDS_ON_THE_WAY),
+            _STARTING_POLES[scaled.size : scaled.size + 2],
+        )
     scaled = _relocated(target, scaled, _MOST_ROUNDS)
-    poles = scaled[scaled.imag >= 0.0] * highest_a0
-    poles = poles[np.abs(poles) <= FARTHEST_POLE]
-    poles = poles[np.argsort(np.abs(poles))]
+    poles = _kept(scaled * highest_a0)
     return poles, _residues(target, poles)
+
+
+def _kept(poles: ComplexArray) -> ComplexArray:
+    """Poles of the real axis and the upper half plane that are not too far, nearest first."""
+    near = poles[(poles.imag >= 0.0) & (np.abs(poles) <= FARTHEST_POLE)]
+    return near[np.argsort(np.abs(near))]
 
 
 def _target(aspect_ratio: float, poisson_ratio: float, order: int, highest_a0: float) -> _Target:
@@ -162,22 +167,21 @@ def _relocated(target: _Target, start: ComplexArray, rounds: int) -> ComplexArra
     order = start.size
     s = 1j * target.a0[:, np.newaxis] / target.highest_a0
     zeros, powers = np.arange(1, order), np.arange(1, order + 1)
-    axis = 1j * _RAY[:, np.newaxis]
-    ray = axis * np.exp(1j * math.asin(_RAY_DAMPING))
-    weight = _RAY + 1.0 / _RAY
+    axis = 1j * _AXIS[:, np.newaxis]
+    weight = _AXIS + 1.0 / _AXIS
     before = _ascending(start)
     best_error, best = math.inf, before
     for _ in range(rounds):
         # Unknown are the coefficients over those of D_before, which are all positive.
         numerator, denominator = s**zeros * before[:-1], s**powers * before
         d_axis = 1.0 + (axis**powers) @ before
-        d_ray = 1.0 + (ray**powers) @ before
         size = np.abs(1.0 + denominator.sum(axis=1))
-        stable = -(ray**powers * before / d_ray[:, np.newaxis]).real
         passive = weight[:, np.newaxis] * (axis**zeros * before[:-1] / d_axis[:, np.newaxis]).imag
         conditions = [
-            (_columns(order, denominator=stable), (1.0 / d_ray).real - _MARGIN),
-            (_columns(order, numerator=passive), -weight * (1.0 / d_axis).imag - _LEAST_MOBILITY),
+            (
+                np.pad(passive, ((0, 0), (0, order))),
+                -weight * (1.0 / d_axis).imag - _LEAST_MOBILITY,
+            ),
             _leading(order, before, target),
         ]
         found = _minimax(
@@ -198,7 +202,7 @@ def _relocated(target: _Target, start: ComplexArray, rounds: int) -> ComplexArra
             best_error, best = error, after
         if damped and (change < _SETTLED or error < _GOOD_ENOUGH):
             break
-        # A resonance may slip through between the points of the ray. Half-way there it has not formed.
+        # Half-way to an undamped or unstable D the resonance has not formed.
         for _ in range(3):
             if _damped(after):
                 break
@@ -220,18 +224,6 @@ def _damped(coefficients: FloatArray) -> bool:
     return bool(np.all(-poles.real >= LEAST_DAMPING * np.abs(poles)))
 
 
-def _columns(
-    order: int, numerator: FloatArray | None = None, denominator: FloatArray | None = None
-) -> FloatArray:
-    """Rows over the unknowns of both polynomials where one of them is not concerned."""
-    if numerator is None:
-        assert denominator is not None
-        numerator = np.zeros((len(denominator), order - 1))
-    if denominator is None:
-        denominator = np.zeros((len(numerator), order))
-    return np.hstack([numerator, denominator])
-
-
 def _leading(order: int, before: FloatArray, target: _Target) -> tuple[FloatArray, FloatArray]:
     """Conditions on the leading coefficients: degree kept, poles near, dashpot bounded."""
     top = np.zeros(2 * order - 1)
@@ -240,7 +232,7 @@ def _leading(order: int, before: FloatArray, target: _Target) -> tuple[FloatArra
     if order > 1:
         next_lower[-2] = before[-2]
     rows = [-top, next_lower - FARTHEST_POLE / target.highest_a0 * top]
-    bounds = [-_MARGIN * before[-1], -1.0 if order == 1 else 0.0]
+    bounds = [-_LEAST_LEADING * before[-1], -1.0 if order == 1 else 0.0]
     if order > 1:
         zero = np.zeros(2 * order - 1)
         zero[order - 2] = before[order - 2] * target.highest_a0
@@ -272,7 +264,7 @@ def _residues(target: _Target, poles: ComplexArray) -> ComplexArray:
     if math.isfinite(target.dashpot[1]):
         conditions.append((dashpot, np.array([target.dashpot[1]])))
     mobility = _mobility(_frequencies(poles, 100, 6.0, 25), poles)
-    everywhere = _mobility(_frequencies(poles, 3000, 8.0, 201), poles)
+    everywhere = _mobility(_frequencies(poles, 3000, 8.0, 1001), poles)
     found = None
     for _ in range(_MOST_ROUNDS):
         passive = (-mobility, np.full(len(mobility), -_LEAST_MOBILITY))
@@ -294,9 +286,8 @@ def _residues(target: _Target, poles: ComplexArray) -> ComplexArray:
         )
         mobility = np.vstack([mobility, everywhere[lowest[values[lowest] < _LEAST_MOBILITY]]])
     assert found is not None, "a sum of damped poles with a bounded dashpot can be passive"
-    rest = iter(
-        found / (static @ found)
-    )  # exact to the last bits, not to the programme's tolerance
+    # The static value is exact to the last bits, not only to the programme's tolerance.
+    rest = iter(found / (static @ found))
     return np.array(
         [next(rest) + (1j * next(rest) if pole.imag > 0.0 else 0.0) for pole in poles],
         dtype=np.complex128,

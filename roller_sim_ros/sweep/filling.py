@@ -129,7 +129,7 @@ def fill(results: Results, executor: Executor, done: Done | None = None) -> None
         if done is not None:
             done(outcome)
 
-    tasks = iter(_tasks(results))
+    tasks = _tasks(results)
     pending: set[Future[Outcome]] = set()
     finished: set[Future[Outcome]] = set()
     try:
@@ -158,7 +158,8 @@ def _keep_begun(futures: set[Future[Outcome]], take: Callable[[Future[Outcome]],
             take(future)
 
 
-def _tasks(results: Results) -> list[Task]:
+def _tasks(results: Results) -> Iterator[Task]:
+    """Yield what is to be done, made when it is asked for: the tasks of a million points are not all there at once."""
     plan = results.plan
     fitting = most_points(
         kept_revolutions(plan.revolutions), plan.grid.base.sampling.samples_per_revolution
@@ -166,7 +167,5 @@ def _tasks(results: Results) -> list[Task]:
     short = _MOST_REVOLUTIONS // (plan.revolutions * plan.line_length)
     lines_each = max(1, min(_MOST_LINES, fitting, short))
     missing = results.missing_lines()
-    return [
-        Task(plan, tuple(missing[first : first + lines_each]))
-        for first in range(0, len(missing), lines_each)
-    ]
+    for first in range(0, len(missing), lines_each):
+        yield Task(plan, plan.points(missing[first : first + lines_each]))

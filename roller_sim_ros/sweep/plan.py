@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from roller_sim_ros.parameters import PARAMETERS, Configuration
 from roller_sim_ros.sweep.axis import Axis
@@ -85,24 +86,36 @@ class Plan:
         """Number of lines."""
         return self.grid.size // self.line_length
 
-    def line(self, number: int) -> list[int]:
-        """Return the flat indices of a line's points, in the order in which they are computed.
+    def first_points(self, lines: NDArray[np.int64]) -> NDArray[np.int64]:
+        """Return the flat index of the lowest point of some lines, shape (n,); their numbers run from 0 on."""
+        if self.continuation is None:
+            return lines
+        outer, within = np.divmod(lines, self._stride)
+        return np.asarray(outer * self._stride * self.line_length + within)
+
+    def points(self, lines: NDArray[np.int64]) -> NDArray[np.int64]:
+        """Return the flat indices of some lines' points, in the order in which they are computed.
 
         Parameters
         ----------
-        number : int
-            0 … lines − 1.
+        lines : ndarray of int, shape (n,)
+            Numbers of the lines, from 0 on.
+
+        Returns
+        -------
+        ndarray of int, shape (n, line_length)
         """
+        first = self.first_points(lines)[:, np.newaxis]
         if self.continuation is None:
-            return [number]
-        axis = self.grid.axis(self.continuation.axis)
-        inner = math.prod(self.grid.shape[axis + 1 :])
-        outer, within = divmod(number, inner)
-        first = outer * inner * self.line_length + within
-        points = first + inner * np.arange(self.line_length)
-        if self.continuation.direction == DOWN:
-            points = points[::-1]
-        return [int(point) for point in points]
+            return first
+        along = self._stride * np.arange(self.line_length)
+        return first + (along if self.continuation.direction == UP else along[::-1])
+
+    @property
+    def _stride(self) -> int:
+        """Distance of neighbours on a line, in flat indices."""
+        assert self.continuation is not None
+        return math.prod(self.grid.shape[self.grid.axis(self.continuation.axis) + 1 :])
 
     def as_object(self) -> dict[str, Any]:
         """Return the plan as an object of JSON values."""

@@ -81,11 +81,10 @@ class Results:
         """Number of points that are there."""
         return int(np.count_nonzero(self.arrays[DONE]))
 
-    def missing_lines(self) -> list[int]:
+    def missing_lines(self) -> NDArray[np.int64]:
         """Return the numbers of the lines that are not done; a line is there as a whole or not at all."""
         done = self.arrays[DONE].reshape(-1)
-        lines = range(self.plan.lines)
-        return [line for line in lines if done[self.plan.line(line)[0]] == 0]
+        return np.flatnonzero(done[self.plan.first_points(np.arange(self.plan.lines))] == 0)
 
     def coordinates(self) -> dict[str, Variable]:
         """Return the axes."""

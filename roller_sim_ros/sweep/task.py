@@ -32,12 +32,12 @@ class Task:
     ----------
     plan : Plan
         What is swept.
-    lines : tuple of int
-        Numbers of the lines.
+    points : ndarray of int, shape (lines, line_length)
+        Flat indices into the grid of the points of each line, in the order in which they are computed.
     """
 
     plan: Plan
-    lines: tuple[int, ...]
+    points: NDArray[np.int64]
 
 
 @dataclass(frozen=True)
@@ -59,10 +59,9 @@ class Outcome:
 def compute(task: Task) -> Outcome:
     """Step the rollers of a task over their revolutions and evaluate what they settle on."""
     plan = task.plan
-    lines = np.array([plan.line(number) for number in task.lines])
     rollers: list[Roller] = []
     parts = []
-    for points in lines.T:
+    for points in task.points.T:
         configurations = [plan.grid.configuration(int(point)) for point in points]
         if rollers:
             for roller, configuration in zip(rollers, configurations, strict=True):
@@ -72,7 +71,7 @@ def compute(task: Task) -> Outcome:
         records = _run(rollers, plan.grid.base, plan.revolutions, early_stop=plan.early_stop)
         parts.append(_evaluate(configurations, records))
     values = {name: np.concatenate([part[name] for part in parts]) for name in parts[0]}
-    return Outcome(lines.T.reshape(-1), values)
+    return Outcome(task.points.T.reshape(-1), values)
 
 
 def values_at(

@@ -11,6 +11,7 @@ from roller_sim_ros.half_space import (
     HalfSpaceError,
     normalised_compliance,
     rational_compliance,
+    rational_fit,
     rational_half_space,
     static_compliance,
 )
@@ -82,10 +83,36 @@ def test_any_order_anywhere_is_stable_and_passive(aspect_ratio, poisson_ratio, o
         assert 0.5 - 1e-6 <= dashpot <= 2.0 + 1e-6
 
 
+def test_passivity_is_seen_next_to_a_resonance():
+    # Its mobility is least beside the resonance at 9.1, far narrower than the spacing of a coarse grid.
+    assert_sound(rational_half_space(10.661476153086793, 0.2631, 7))
+
+
+@pytest.mark.parametrize("order", [4, 6])
+@pytest.mark.parametrize("aspect_ratio", [1.0, 9.6, 40.0])
+def test_fit_stays_sane_beyond_its_band(aspect_ratio, order):
+    # Harmonics of the drum's motion reach there.
+    fit = rational_half_space(aspect_ratio, 0.25, order)
+    a0 = np.linspace(1.0, 4.0, 300) * fit.highest_a0
+    exact = normalised_compliance(a0, aspect_ratio, 0.25)
+    assert np.abs(fit.compliance(a0) - exact).max() < 0.1
+
+
 def test_error_falls_with_the_order():
     errors = [rational_half_space(20.0, 0.25, order, 1.0).error for order in (1, 2, 4, 6)]
     assert errors[0] > 4 * errors[1] > 4 * 4 * errors[2]
     assert errors[3] < errors[2]
+
+
+def test_far_poles_are_dropped():
+    poles = np.array([-5.0 - 9.0j, -5.0 + 9.0j, -1.0, -2.0 - 60.0j, -2.0 + 60.0j])
+    np.testing.assert_array_equal(rational_fit._kept(poles), [-1.0, -5.0 + 9.0j])
+
+
+def test_poles_that_a_fit_has_no_use_for_do_not_meet():
+    # Here two starting poles stay where they were. Equal, they would have residues that cancel each other.
+    fit = rational_half_space(9.6, 0.49, 5)
+    assert np.abs(fit.residues).max() < 1e3
 
 
 def test_coefficients_are_the_same_function():

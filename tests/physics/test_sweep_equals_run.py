@@ -151,8 +151,9 @@ def test_a_continued_line_is_one_session(axis: str, model: str, direction: str) 
     # Beside the line that is looked at there are others, so that lanes are shared.
     grid = Grid((Axis("soil.poisson_ratio", (0.2, 0.25, 0.3)), Axis(axis, CONTINUED[axis])), base)
     plan = Plan(grid, 150, Continuation(axis, direction), early_stop=False)
-    outcome = compute(Task(plan, tuple(range(plan.lines))))
-    line = plan.line(1)
+    points = plan.points(np.arange(plan.lines))
+    outcome = compute(Task(plan, points))
+    line = [int(point) for point in points[1]]
     values = [grid.values(point)[axis] for point in line]
     for point, theirs in zip(line, continued_session(axis, values, model, 150), strict=True):
         place = int(np.flatnonzero(outcome.points == point)[0])
@@ -174,7 +175,8 @@ def test_continuing_shows_hysteresis() -> None:
     grid = Grid((Axis.of(axis, np.linspace(0.4e-3, 2.4e-3, 41)),), base)
     found = {}
     for direction in ("up", "down"):
-        outcome = compute(Task(Plan(grid, 300, Continuation(axis, direction)), (0,)))
+        plan = Plan(grid, 300, Continuation(axis, direction))
+        outcome = compute(Task(plan, plan.points(np.array([0]))))
         found[direction] = outcome.values["force_ratio_max"][np.argsort(outcome.points)]
     periodic = np.abs(found["up"] - found["down"]) > 0.05
     assert np.count_nonzero(periodic) >= 2

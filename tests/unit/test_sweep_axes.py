@@ -121,13 +121,17 @@ def test_grids_without_points_or_with_too_many_are_refused() -> None:
         Grid((Axis(FREQUENCY, many), Axis("soil.poisson_ratio", tuple(np.linspace(0, 0.4, 4000)))))
 
 
+def points(plan: Plan) -> list[list[int]]:
+    return [[int(point) for point in line] for line in plan.points(np.arange(plan.lines))]
+
+
 def test_lines_follow_the_axis_that_is_continued_along() -> None:
     grid = Grid((Axis(FREQUENCY, (20.0, 30.0)), Axis(AMPLITUDE, (1e-3, 2e-3, 3e-3))))
-    assert [Plan(grid).line(n) for n in range(Plan(grid).lines)] == [[n] for n in range(6)]
+    assert points(Plan(grid)) == [[n] for n in range(6)]
     up = Plan(grid, continuation=Continuation(FREQUENCY, "up"))
-    assert [up.line(n) for n in range(up.lines)] == [[0, 3], [1, 4], [2, 5]]
+    assert points(up) == [[0, 3], [1, 4], [2, 5]]
     down = Plan(grid, continuation=Continuation(AMPLITUDE, "down"))
-    assert [down.line(n) for n in range(down.lines)] == [[2, 1, 0], [5, 4, 3]]
+    assert points(down) == [[2, 1, 0], [5, 4, 3]]
 
 
 def test_plans_that_cannot_be_are_refused() -> None:
