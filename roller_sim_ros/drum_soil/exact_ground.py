@@ -31,7 +31,13 @@ class ExactGround(Ground):
         self._memory = 0
         self._old_step_s = 0.0
         self._old_compliance = self.strip.static_compliance
+        self._own_memory_s = 0.0
         self._old_waves_s = 0.0
+
+    @property
+    def memory_samples(self) -> int:
+        """Samples for which the surface still answers to a force."""
+        return self._memory
 
     def begin(self, revolution: Revolution, soil: Soil) -> None:
         """Take over the plan and the soil of the next revolution."""
@@ -43,10 +49,10 @@ class ExactGround(Ground):
         unit = self.strip.time_unit_s
         alpha, nu = self.strip.aspect_ratio, soil.poisson_ratio
         own_memory_s = memory(alpha, nu) * unit
-        free_s = max(own_memory_s, self._old_waves_s)
         if self._soil != soil:
-            free_s = max(free_s, (self._memory + 1) * self._old_step_s)
-            self._old_waves_s = free_s
+            self._old_waves_s = max(self._old_waves_s, self._own_memory_s)
+        self._own_memory_s = own_memory_s
+        free_s = max(own_memory_s, self._old_waves_s)
         count = math.ceil(free_s / h) + 1
         compliance = self.strip.static_compliance
         self._answers = tuple(
