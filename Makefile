@@ -42,8 +42,8 @@ bench: setup
 	@exec $(VENV)/python -m benchmarks $(ARGS)
 
 docs: setup
-	@$(VENV)/python tools/generate_docs.py
-	@exec $(VENV)/python tools/generate_schema.py
+	@$(VENV)/python -m tools.generate_docs
+	@exec $(VENV)/python -m tools.generate_schema
 
 clean:
 	rm -rf .venv build install log dist roller_sim_ros.egg-info .mypy_cache .pytest_cache .ruff_cache .hypothesis

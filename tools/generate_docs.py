@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import sys
 import textwrap
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Sequence
 from decimal import Decimal
 from pathlib import Path
 
@@ -17,6 +17,7 @@ from roller_sim_ros.parameters.configuration import GROUPS
 from roller_sim_ros.parameters.quantity import ParameterGroup, declared
 from roller_sim_ros.sensors import SENSORS
 from roller_sim_ros.wire.topics import TOPICS, Direction, Topic
+from tools.generated import write_or_check
 
 ROOT = Path(__file__).resolve().parent.parent
 GENERATED = "by tools/generate_docs.py (make docs) from the declarations"
@@ -293,26 +294,8 @@ def _table(head: Sequence[str], rows: Iterable[Sequence[str]]) -> list[str]:
     return lines + ["| " + " | ".join(row) + " |" for row in rows]
 
 
-def stale(files: Mapping[str, str]) -> list[str]:
-    """Return the paths of files that are not what they would be."""
-    return [
-        name
-        for name, text in files.items()
-        if not (ROOT / name).is_file() or (ROOT / name).read_text(encoding="utf-8") != text
-    ]
-
-
 def main(arguments: Sequence[str]) -> int:
-    files = contents()
-    changed = stale(files)
-    if "--check" in arguments:
-        for name in changed:
-            print(f"{name} is stale: run make docs", file=sys.stderr)
-        return 1 if changed else 0
-    for name in changed:
-        (ROOT / name).write_text(files[name], encoding="utf-8")
-        print(f"wrote {name}")
-    return 0
+    return write_or_check(ROOT, contents(), arguments, "make docs")
 
 
 if __name__ == "__main__":

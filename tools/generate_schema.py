@@ -7,12 +7,13 @@ from __future__ import annotations
 
 import json
 import sys
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 
 from roller_sim_ros.scenario.scenario import Scenario
 from roller_sim_ros.scenario.schema import json_schema
 from roller_sim_ros.site.declaration import TAG, Member, Record, members
+from tools.generated import write_or_check
 
 ROOT = Path(__file__).resolve().parent.parent
 
@@ -85,26 +86,8 @@ def _paragraph(record: type[Record]) -> str:
     return "\n".join(line.strip() for line in text.splitlines())
 
 
-def stale(files: Mapping[str, str]) -> list[str]:
-    """Return the paths of files that are not what they would be."""
-    return [
-        name
-        for name, text in files.items()
-        if not (ROOT / name).is_file() or (ROOT / name).read_text(encoding="utf-8") != text
-    ]
-
-
 def main(arguments: Sequence[str]) -> int:
-    files = contents()
-    changed = stale(files)
-    if "--check" in arguments:
-        for name in changed:
-            print(f"{name} is stale: run make docs", file=sys.stderr)
-        return 1 if changed else 0
-    for name in changed:
-        (ROOT / name).write_text(files[name], encoding="utf-8")
-        print(f"wrote {name}")
-    return 0
+    return write_or_check(ROOT, contents(), arguments, "make docs")
 
 
 if __name__ == "__main__":

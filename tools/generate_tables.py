@@ -26,6 +26,7 @@ from roller_sim_ros.parameters import (
     covarying_plastic_parameter,
 )
 from roller_sim_ros.soil_mechanics import MACHINES, SOILS, GranularSoil
+from tools.generated import write_or_check
 
 ROOT = Path(__file__).resolve().parent.parent
 
@@ -199,19 +200,7 @@ def contents() -> dict[str, str]:
 
 
 def main(arguments: Sequence[str]) -> int:
-    changed = {
-        name: text
-        for name, text in contents().items()
-        if (ROOT / name).read_text(encoding="utf-8") != text
-    }
-    if "--check" in arguments:
-        for name in changed:
-            print(f"{name} is stale: run python tools/generate_tables.py", file=sys.stderr)
-        return 1 if changed else 0
-    for name, text in changed.items():
-        (ROOT / name).write_text(text, encoding="utf-8")
-        print(f"wrote {name}")
-    return 0
+    return write_or_check(ROOT, contents(), arguments, "python -m tools.generate_tables")
 
 
 if __name__ == "__main__":

@@ -2,10 +2,8 @@
 
 from __future__ import annotations
 
-import importlib.util
 import shutil
 from pathlib import Path
-from types import ModuleType
 
 import pytest
 import yaml
@@ -13,44 +11,35 @@ import yaml
 from roller_sim_ros.parameters import PARAMETERS, Configuration
 from roller_sim_ros.parameters.file import read_parameters
 from roller_sim_ros.wire.topics import TOPICS
+from tools import generate_docs
+from tools.generated import stale
 
 ROOT = Path(__file__).resolve().parents[2]
 
 
-@pytest.fixture(scope="module")
-def generator() -> ModuleType:
-    path = ROOT / "tools" / "generate_docs.py"
-    spec = importlib.util.spec_from_file_location("generate_docs", path)
-    assert spec is not None
-    assert spec.loader is not None
-    module = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(module)
-    return module
-
-
-def test_generated_files_are_not_stale(generator: ModuleType) -> None:
-    assert generator.stale(generator.contents()) == [], "run make docs"
+def test_generated_files_are_not_stale() -> None:
+    assert stale(generate_docs.ROOT, generate_docs.contents()) == [], "run make docs"
 
 
 def test_a_changed_file_is_found_and_written(
-    generator: ModuleType, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(generator, "ROOT", tmp_path)
+    monkeypatch.setattr(generate_docs, "ROOT", tmp_path)
     for folder in ("docs", "config"):
         (tmp_path / folder).mkdir()
     shutil.copytree(ROOT / "examples", tmp_path / "examples")
     shutil.copy(ROOT / "README.md", tmp_path)
-    assert generator.main(["--check"]) == 1
+    assert generate_docs.main(["--check"]) == 1
     assert not list(tmp_path.glob("docs/*"))
-    assert generator.main([]) == 0
-    assert generator.main(["--check"]) == 0
+    assert generate_docs.main([]) == 0
+    assert generate_docs.main(["--check"]) == 0
     page = tmp_path / "docs" / "topics.md"
     page.write_text(page.read_text(encoding="utf-8") + "by hand\n", encoding="utf-8")
-    assert generator.stale(generator.contents()) == ["docs/topics.md"]
+    assert stale(generate_docs.ROOT, generate_docs.contents()) == ["docs/topics.md"]
 
 
-def test_pages_name_every_parameter_and_every_topic(generator: ModuleType) -> None:
-    parameters, topics = generator.parameters_page(), generator.topics_page()
+def test_pages_name_every_parameter_and_every_topic() -> None:
+    parameters, topics = generate_docs.parameters_page(), generate_docs.topics_page()
     for name, (quantity, _) in PARAMETERS.items():
         (row,) = [line for line in parameters.splitlines() if line.startswith(f"| `{name}` |")]
         assert quantity.doc in row

@@ -2,28 +2,16 @@
 
 from __future__ import annotations
 
-import importlib.util
 import re
 from pathlib import Path
-from types import ModuleType
 
 import pytest
 
 from roller_sim_ros.meters.registry import DRUM_METERS, METERS
 from roller_sim_ros.soil_mechanics import MACHINES, SOILS
+from tools import generate_tables
 
 ROOT = Path(__file__).resolve().parents[2]
-
-
-@pytest.fixture(scope="module")
-def generator() -> ModuleType:
-    path = ROOT / "tools" / "generate_tables.py"
-    spec = importlib.util.spec_from_file_location("generate_tables", path)
-    assert spec is not None
-    assert spec.loader is not None
-    module = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(module)
-    return module
 
 
 def text(page: str) -> str:
@@ -34,8 +22,8 @@ def cells(page: str) -> list[list[str]]:
     return [line.strip("|").split("|") for line in page.splitlines() if line.startswith("|")]
 
 
-def test_tables_are_not_stale(generator: ModuleType) -> None:
-    now = generator.contents()
+def test_tables_are_not_stale() -> None:
+    now = generate_tables.contents()
     assert now["docs/soil.md"] == text("docs/soil.md")
     # The last digits of a settled motion may differ from machine to machine.
     found, expected = cells(text("docs/meters.md")), cells(now["docs/meters.md"])
@@ -81,17 +69,19 @@ def test_what_the_page_says_of_double_jump_is_in_its_table() -> None:
 
 
 def test_check_finds_a_changed_number_and_writing_mends_it(
-    generator: ModuleType, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     page = tmp_path / "docs" / "soil.md"
     page.parent.mkdir()
     page.write_text(text("docs/soil.md").replace("| 7.12 |", "| 7.21 |"), encoding="utf-8")
-    monkeypatch.setattr(generator, "ROOT", tmp_path)
-    monkeypatch.setattr(generator, "PAGES", {"docs/soil.md": generator.PAGES["docs/soil.md"]})
-    assert generator.main(["--check"]) == 1
-    assert generator.main([]) == 0
+    monkeypatch.setattr(generate_tables, "ROOT", tmp_path)
+    monkeypatch.setattr(
+        generate_tables, "PAGES", {"docs/soil.md": generate_tables.PAGES["docs/soil.md"]}
+    )
+    assert generate_tables.main(["--check"]) == 1
+    assert generate_tables.main([]) == 0
     assert page.read_text(encoding="utf-8") == text("docs/soil.md")
-    assert generator.main(["--check"]) == 0
+    assert generate_tables.main(["--check"]) == 0
     page.write_text("nothing\n", encoding="utf-8")
     with pytest.raises(SystemExit, match="no place for the table soils"):
-        generator.main([])
+        generate_tables.main([])

@@ -2,12 +2,10 @@
 
 from __future__ import annotations
 
-import importlib.util
 import json
 import re
 from collections.abc import Iterator
 from pathlib import Path
-from types import ModuleType
 from typing import Any
 
 import pytest
@@ -19,6 +17,8 @@ from roller_sim_ros.scenario.schema import json_schema
 from roller_sim_ros.scenario.shipped import shipped_scenarios
 from roller_sim_ros.sensors import SENSORS
 from roller_sim_ros.site import FEATURES, LAWS
+from tools import generate_schema
+from tools.generated import stale
 
 ROOT = Path(__file__).resolve().parents[3]
 SHIPPED = shipped_scenarios()
@@ -78,38 +78,29 @@ def schema() -> dict[str, Any]:
     return json_schema()
 
 
-@pytest.fixture(scope="module")
-def generator() -> ModuleType:
-    path = ROOT / "tools" / "generate_schema.py"
-    spec = importlib.util.spec_from_file_location("generate_schema", path)
-    assert spec is not None
-    assert spec.loader is not None
-    module = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(module)
-    return module
-
-
-def test_generated_files_are_not_stale(generator: ModuleType) -> None:
-    assert generator.stale(generator.contents()) == [], "run make docs"
+def test_generated_files_are_not_stale() -> None:
+    assert stale(generate_schema.ROOT, generate_schema.contents()) == [], "run make docs"
 
 
 def test_a_changed_file_is_found_and_written(
-    generator: ModuleType, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(generator, "ROOT", tmp_path)
+    monkeypatch.setattr(generate_schema, "ROOT", tmp_path)
     for folder in ("docs", "scenarios"):
         (tmp_path / folder).mkdir()
-    assert generator.main(["--check"]) == 1
-    assert generator.main([]) == 0
-    assert generator.main(["--check"]) == 0
+    assert generate_schema.main(["--check"]) == 1
+    assert generate_schema.main([]) == 0
+    assert generate_schema.main(["--check"]) == 0
     (tmp_path / "scenarios" / "scenario.schema.json").write_text("{}", encoding="utf-8")
-    assert generator.stale(generator.contents()) == ["scenarios/scenario.schema.json"]
+    assert stale(generate_schema.ROOT, generate_schema.contents()) == [
+        "scenarios/scenario.schema.json"
+    ]
 
 
 def test_make_docs_calls_the_generator() -> None:
     recipe = re.search(r"^docs: .*\n((?:\t.*\n)+)", (ROOT / "Makefile").read_text(), re.MULTILINE)
     assert recipe is not None
-    assert "tools/generate_schema.py" in recipe.group(1)
+    assert "tools.generate_schema" in recipe.group(1)
 
 
 @pytest.mark.parametrize("name", SHIPPED)
