@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 from rclpy.node import Node
 from rclpy.subscription import Subscription
+from rosbags.serde import SerdeError
 
 from roller_sim_ros.emulation import Emulator
 from roller_sim_ros.errors import RollerSimError
@@ -263,7 +264,12 @@ class Roller:
     def _on_command(self, data: bytes, received_ns: int, published_ns: int) -> None:
         if self._recording is not None:
             self._recording.put_command(data, received_ns, published_ns)
-        message = decode(data, topics.EXCITER_COMMAND.type_name)
+        try:
+            message = decode(data, topics.EXCITER_COMMAND.type_name)
+        except SerdeError as error:
+            reason = f"message of {len(data)} bytes: is no ExciterCommand ({error})"
+            self._refuse(Refusal.DAMAGED, f"command refused: {reason}", reason)
+            return
         try:
             if self._pacer is None:
                 raise CommandRefused(

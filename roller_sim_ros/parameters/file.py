@@ -74,6 +74,11 @@ def _load(path: Path) -> Mapping[str, Any]:
         where = f" in line {mark.line + 1}" if mark is not None else ""
         problem = getattr(error, "problem", None) or "not understood"
         raise ParameterFileError(path, f"is no YAML{where}: {problem}") from None
+    except RecursionError:
+        raise ParameterFileError(path, "is nested too deeply") from None
+    except (ValueError, TypeError, AttributeError) as error:
+        # What PyYAML raises for a value that is not what its form or its tag says, as 2001-99-99.
+        raise ParameterFileError(path, f"holds a value that is none: {error}") from None
     if not isinstance(content, Mapping) or not content:
         raise ParameterFileError(
             path, "holds no parameters, as in soil: {shear_modulus_pa: 50.0e+6}"
@@ -119,7 +124,17 @@ def _flat(section: Mapping[str, Any], prefix: str = "") -> Iterator[tuple[str, A
 
 
 class _Loader(yaml.SafeLoader):
-    """Reads numbers as ROS 2 does: 35e6 is one, which YAML 1.1 takes for a text."""
+    """Reads numbers as ROS 2 does: 35e6 is one, which YAML 1.1 takes for a text. Like it, refuses aliases.
+
+    A file of a few lines could stand for values without end by them.
+    """
+
+    def compose_node(self, parent: yaml.Node | None, index: int) -> yaml.Node | None:
+        """Return the next node."""
+        if self.check_event(yaml.AliasEvent):
+            mark = self.peek_event().start_mark  # type: ignore[no-untyped-call]
+            raise yaml.composer.ComposerError(None, None, "aliases are not taken", mark)
+        return super().compose_node(parent, index)
 
 
 _Loader.add_implicit_resolver(

@@ -18,6 +18,21 @@ Value = bool | int | float | str
 _KEY = "roller_sim_ros.quantity"
 
 
+_LONGEST_SHOWN = 120
+
+
+def shown(value: object) -> str:
+    """Return a value as a message shows it, in one line and shortened where it is long."""
+    # Python refuses to write integers of thousands of digits.
+    if isinstance(value, int) and value.bit_length() > 200:
+        return f"an integer of {value.bit_length()} bits"
+    try:
+        text = repr(value)
+    except ValueError:  # such an integer, in a list
+        return f"a {type(value).__name__}"
+    return text if len(text) <= _LONGEST_SHOWN else f"{text[:_LONGEST_SHOWN]}…"
+
+
 class ParameterError(RollerSimError):
     """A parameter has a value it cannot have.
 
@@ -32,7 +47,7 @@ class ParameterError(RollerSimError):
     """
 
     def __init__(self, name: str, value: object, reason: str) -> None:
-        super().__init__(f"{name} = {value!r}: {reason}")
+        super().__init__(f"{name} = {shown(value)}: {reason}")
         self.name = name
         self.value = value
         self.reason = reason
@@ -112,16 +127,21 @@ def check(name: str, quantity: Quantity, default: Value, value: object) -> Value
     if isinstance(value, bool) or not isinstance(value, int | float):
         of = f" of {quantity.unit}" if quantity.unit else ""
         raise ParameterError(name, value, f"must be a number{of}")
-    if isinstance(default, int) and float(value) != int(value if math.isfinite(value) else 0):
+    if isinstance(default, int) and isinstance(value, float) and not value.is_integer():
         raise ParameterError(name, value, "must be a whole number")
-    if not math.isfinite(value):
+    if isinstance(value, float) and not math.isfinite(value):
         raise ParameterError(name, value, "must be finite")
     unit = f" {quantity.unit}" if quantity.unit else ""
     if quantity.minimum is not None and value < quantity.minimum:
         raise ParameterError(name, value, f"must be at least {quantity.minimum:g}{unit}")
     if quantity.maximum is not None and value > quantity.maximum:
         raise ParameterError(name, value, f"must be at most {quantity.maximum:g}{unit}")
-    return int(value) if isinstance(default, int) else float(value)
+    if isinstance(default, int):
+        return int(value)
+    try:
+        return float(value)
+    except OverflowError:  # an integer beyond all floats
+        raise ParameterError(name, value, "must be finite") from None
 
 
 @dataclass(frozen=True)

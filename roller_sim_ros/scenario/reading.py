@@ -10,6 +10,7 @@ from typing import Any
 from yaml.nodes import MappingNode, Node, ScalarNode, SequenceNode
 
 from roller_sim_ros.parameters import ParameterError
+from roller_sim_ros.parameters.quantity import shown
 from roller_sim_ros.scenario.build import configuration_of, programme_of, site_of
 from roller_sim_ros.scenario.catalogue import check_instruments
 from roller_sim_ros.scenario.nodes import (
@@ -207,7 +208,7 @@ class _Reader:
 
 def _told(name: str, error: ParameterError) -> str:
     """Return the error under the name that the file has for it; of a missing value only the reason."""
-    value = "" if error.value is None else f" = {error.value!r}"
+    value = "" if error.value is None else f" = {shown(error.value)}"
     return f"{name}{value}: {error.reason}"
 
 

@@ -20,6 +20,7 @@ class Refusal(IntEnum):
     OUT_OF_RANGE = 3
     NOT_ACTIVE = 4
     TIMEOUT = 5
+    DAMAGED = 6
 
 
 class Master(IntEnum):

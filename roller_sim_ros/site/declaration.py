@@ -233,14 +233,19 @@ def _scalar(name: str, kind: type[Any], declaration: Declaration, value: object)
         return value
     if isinstance(value, bool) or not isinstance(value, int | float):
         raise ParameterError(name, value, "must be a number")
-    if not math.isfinite(value):
+    if isinstance(value, float) and not math.isfinite(value):
         raise ParameterError(name, value, "must be finite")
     if kind is int and value != int(value):
         raise ParameterError(name, value, "must be a whole number")
     low, high = declaration.minimum, declaration.maximum
     if (low is not None and value < low) or (high is not None and value > high):
         raise ParameterError(name, value, f"must be {declaration.bounds_text}")
-    return int(value) if kind is int else float(value)
+    if kind is int:
+        return int(value)
+    try:
+        return float(value)
+    except OverflowError:  # an integer beyond all floats
+        raise ParameterError(name, value, "must be finite") from None
 
 
 def walk(record: type[Record], prefix: str = "") -> Iterator[tuple[str, Member]]:
