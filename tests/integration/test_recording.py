@@ -7,6 +7,7 @@ import math
 from action_msgs.msg import GoalStatus
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
 from geometry_msgs.msg import PointStamped
+from rcl_interfaces.msg import ParameterEvent
 from std_msgs.msg import Float64
 
 from roller_sim_ros import __version__
@@ -16,6 +17,16 @@ from roller_sim_ros.traces.metadata import RUN
 from roller_sim_ros.traces.reader import TraceReader
 from roller_sim_ros.wire.topics import TOPICS
 from tests.integration.harness import entry, recorded
+
+
+def changed_parameters(events) -> dict[str, float]:
+    """Return what the roller's events say of numbers that were set, the last value of each."""
+    return {
+        item.name: item.value.double_value
+        for event in events
+        if event.node == "/roller_sim"
+        for item in event.changed_parameters
+    }
 
 
 def test_bag_holds_all_that_belongs_to_the_run(start, client, tmp_path):
@@ -28,6 +39,7 @@ def test_bag_holds_all_that_belongs_to_the_run(start, client, tmp_path):
     states = client.listen("exciter/state", ExciterState)
     applied = client.listen("applied", AppliedChange)
     diagnostics = client.listen("/diagnostics", DiagnosticArray)
+    events = client.listen("/parameter_events", ParameterEvent)
     client.spin_until(lambda: states)
 
     # Topics of others appear while the roller runs.
@@ -55,6 +67,8 @@ def test_bag_holds_all_that_belongs_to_the_run(start, client, tmp_path):
             and found.message == "nobody publishes /nobody yet"
         )
     )
+    # The command shows as a parameter within a second.
+    client.spin_until(lambda: changed_parameters(events).get("exciter.frequency_hz") == 29.0)
     client.spin_for(0.5)
     assert sim.end() == 0
 
@@ -72,15 +86,9 @@ def test_bag_holds_all_that_belongs_to_the_run(start, client, tmp_path):
     commands = recorded(bag, "/exciter/command")
     assert commands[0].frequency == 29.0
     assert math.isnan(commands[1].frequency)
-    events = recorded(bag, "/parameter_events")
-    changed = {
-        item.name: item.value.double_value
-        for event in events
-        if event.node == "/roller_sim"
-        for item in event.changed_parameters
-    }
+    changed = changed_parameters(recorded(bag, "/parameter_events"))
     assert changed["soil.shear_modulus_pa"] == 70e6
-    assert changed["exciter.frequency_hz"] == 29.0  # the command, shown as a parameter
+    assert changed["exciter.frequency_hz"] == 29.0
 
     run, parameters = reader.metadata[RUN], reader.metadata[PARAMETER_RECORD]
     assert run["version"] == __version__
