@@ -22,7 +22,7 @@ KERNELS: dict[str, ModuleType] = {"two-pole": two_pole_kernel, "exact": exact_ke
 REVOLUTIONS = 64
 """Of one bare call: enough that calling costs nothing."""
 
-_ANGLES = ("sine", "cosine", "phase_angle")
+_ANGLES = ("sine", "cosine")
 _HISTORY = ("free", "free_rate")
 
 

@@ -7,19 +7,26 @@ drum lifts off when the force is zero and meets the soil at zero gap; the soil i
 
 from __future__ import annotations
 
-import math
-
 from roller_sim_ros.drum_soil.finite_memory import (
     BEND_CURVATURE,
     BEND_SLOPE,
     BEND_TIME,
     Array,
     Free,
-    answer_within,
-    known_surface,
 )
-from roller_sim_ros.drum_soil.modes import Modes, answers_and_motion, carry
-from roller_sim_ros.drum_soil.parts import Constants, Pair, Result, solve_part
+from roller_sim_ros.drum_soil.location import (
+    APEX,
+    CONTACT,
+    LIFT_OFF,
+    LOADING_ENDS,
+    RELOADING,
+    STEP_END,
+    event_value,
+    locate,
+)
+from roller_sim_ros.drum_soil.modes import Modes, carry
+from roller_sim_ros.drum_soil.part_of_step import Exciter, State, part_of_step, thrust_at
+from roller_sim_ros.drum_soil.parts import Constants, Pair, Result
 from roller_sim_ros.drum_soil.renewal import renewed
 from roller_sim_ros.drum_soil.state import (
     AIR,
@@ -31,188 +38,14 @@ from roller_sim_ros.drum_soil.state import (
     TWO_POLE,
     UNLOADING,
 )
-from roller_sim_ros.drum_soil.two_pole import (
-    gauss_thrusts,
-    joint_answer,
-    joint_force,
-    joint_part,
-    two_pole_answer,
-    two_pole_free,
-)
-from roller_sim_ros.exciter.force import exciter_motion
-from roller_sim_ros.jit import inlined, njit
-
-State = tuple[float, float, float, float, float, float, float]
-Exciter = tuple[float, float, float, float]
-
-# What ends a part of a step.
-_STEP_END = 0
-_LOADING_ENDS = 1
-_RELOADING = 2
-_LIFT_OFF = 3
-_CONTACT = 4
-_APEX = 5
+from roller_sim_ros.drum_soil.two_pole import joint_force
+from roller_sim_ros.jit import njit
 
 _SHORTEST_PART = 1e-6
 """Fraction of the step below which a part is none: an event there is one at the part's start or end."""
-_SHORTEST_PARABOLA = 0.05
-"""Fraction of the step below which the force of a part is taken as linear: its bulge would be mostly noise."""
 
 _STILL = (0.0, STILL_VELOCITY, STILL_SLOPE, 0.0, 0.0, 0.0)
 """By event, how far its function must have fallen below zero."""
-
-_ROOT_TOLERANCE = 1e-8
-_ROOT_ITERATIONS = 40
-
-
-@inlined
-def _part(
-    phase: int,
-    t: float,
-    x: float,
-    slope_before: float,
-    state: State,
-    h: float,
-    constants: Constants,
-    exciter: Exciter,
-    half_space: int,
-    free: Free,
-    answer_h: Pair,
-    two_pole: tuple[float, float, float],
-    modes: Modes,
-    bends: Array,
-    count: int,
-) -> Result:
-    """As `solve_part`, for the part of the step from t to t + x."""
-    d, v, force, e, w, q, datum = state
-    omega, phase_angle, amplitude, rate = exciter
-    angle = phase_angle + omega * t
-    sine, cosine = math.sin(angle), math.cos(angle)
-    amplitude_t = amplitude + rate * t
-    y = 0.5 * x
-    if half_space == TWO_POLE:
-        if phase == UNLOADING:
-            thrusts = gauss_thrusts(x, omega, sine, cosine, amplitude_t, rate)
-            return joint_part(
-                e,
-                w,
-                q + datum,
-                thrusts,
-                joint_answer(x, two_pole, constants[0]),
-                two_pole,
-                constants,
-            )
-        answer_x, motion_x = two_pole_answer(x, two_pole)
-        known_x = two_pole_free(e, w, force, motion_x, two_pole)
-        # In the air only the end is asked for.
-        answer_y, known_y = answer_x, known_x
-        if phase == LOADING:
-            answer_y, motion_y = two_pole_answer(y, two_pole)
-            known_y = two_pole_free(e, w, force, motion_y, two_pole)
-        slope_before = 0.0
-    elif half_space == MODES:
-        answer_y, answer_x, known_y, known_x = answers_and_motion(x, force, two_pole[2], modes)
-        slope_before = 0.0
-    else:
-        answer_y = answer_within(y, h, answer_h[0], answer_h[1])
-        answer_x = answer_within(x, h, answer_h[0], answer_h[1])
-        known_y = known_surface(t + y, h, free, answer_h, bends, count)
-        known_x = known_surface(t + x, h, free, answer_h, bends, count)
-    return solve_part(
-        phase,
-        x,
-        x > _SHORTEST_PARABOLA * h,
-        (d, v, force, q, datum),
-        slope_before,
-        exciter_motion(y, omega, sine, cosine, amplitude_t, rate),
-        exciter_motion(x, omega, sine, cosine, amplitude_t, rate),
-        known_y,
-        known_x,
-        answer_y,
-        answer_x,
-        constants,
-    )
-
-
-@inlined
-def _event_value(event: int, result: Result, q: float, datum: float) -> float:
-    """Return the function that falls through zero at the event."""
-    _, slope_end, d, v, force, e, w = result
-    if event == _LOADING_ENDS:
-        return v - w
-    if event == _RELOADING:
-        return -slope_end
-    if event == _LIFT_OFF:
-        return force
-    if event == _CONTACT:
-        return e + q + datum - d
-    return -v
-
-
-@njit
-def _locate(
-    event: int,
-    at_start: float,
-    at_end: float,
-    length: float,
-    phase: int,
-    t: float,
-    slope_before: float,
-    state: State,
-    h: float,
-    constants: Constants,
-    exciter: Exciter,
-    half_space: int,
-    free: Free,
-    answer_h: Pair,
-    two_pole: tuple[float, float, float],
-    modes: Modes,
-    bends: Array,
-    count: int,
-) -> float:
-    """Return the time into the part at which the event happens (regula falsi, Illinois variant)."""
-    if at_start <= 0.0:
-        return 0.0
-    low, f_low = 0.0, at_start
-    high, f_high = length, at_end
-    side = 0
-    x = high
-    for _ in range(_ROOT_ITERATIONS):
-        last = x
-        x = high - f_high * (high - low) / (f_high - f_low)
-        if abs(x - last) < _ROOT_TOLERANCE * h:
-            break
-        result = _part(
-            phase,
-            t,
-            x,
-            slope_before,
-            state,
-            h,
-            constants,
-            exciter,
-            half_space,
-            free,
-            answer_h,
-            two_pole,
-            modes,
-            bends,
-            count,
-        )
-        f = _event_value(event, result, state[5], state[6])
-        if f <= 0.0:
-            high, f_high = x, f
-            if side == -1:
-                f_low *= 0.5
-            side = -1
-        else:
-            low, f_low = x, f
-            if side == 1:
-                f_high *= 0.5
-            side = 1
-        if f_high == f_low:
-            break
-    return x
 
 
 @njit
@@ -228,6 +61,7 @@ def split_step(
     two_pole: tuple[float, float, float],
     modes: Modes,
     bends: Array,
+    result: Result,
 ) -> tuple[int, State, int, int]:
     """Take one step in which phases change, each change located inside the step.
 
@@ -240,7 +74,7 @@ def split_step(
     constants
         m_d, F_stat, p/F_stat.
     exciter
-        ω, phase at the sample, vertical exciter acceleration and its rate there.
+        ω, sine and cosine at the sample, vertical exciter acceleration and its rate there.
     half_space
         FINITE_MEMORY, TWO_POLE or MODES.
     free, answer_h
@@ -251,6 +85,8 @@ def split_step(
         Modes: see `modes`; their distance from rest is moved on by the step.
     bends : ndarray, shape BENDS_SHAPE
         Receives where the force bends, from a constant one before the step to a constant one after it.
+    result
+        Of the whole step, had no phase changed.
 
     Returns
     -------
@@ -275,41 +111,42 @@ def split_step(
         if rest <= 0.0:
             break
         state = (d, v, force, e, w, q, datum)
-        result = _part(
-            phase,
-            t,
-            rest,
-            slope_before,
-            state,
-            h,
-            constants,
-            exciter,
-            half_space,
-            free,
-            answer_h,
-            two_pole,
-            modes,
-            bends,
-            count,
-        )
+        if split > 0:
+            result = part_of_step(
+                phase,
+                t,
+                rest,
+                slope_before,
+                state,
+                h,
+                constants,
+                exciter,
+                half_space,
+                free,
+                answer_h,
+                two_pole,
+                modes,
+                bends,
+                count,
+            )
         length = rest
-        event = _STEP_END
+        event = STEP_END
         at_start = 0.0
         if split == MAX_SPLITS:
             # The last part is taken as it stands, but for the sign of the force.
             unsettled = 1
         elif phase == LOADING:
-            event, at_start = _LOADING_ENDS, v - w
+            event, at_start = LOADING_ENDS, v - w
         elif phase == AIR:
-            event, at_start = _CONTACT, e + q + datum - d
+            event, at_start = CONTACT, e + q + datum - d
         elif result[4] < 0.0:
-            event, at_start = _LIFT_OFF, force
+            event, at_start = LIFT_OFF, force
         else:
-            event, at_start = _RELOADING, -result[0]
-        if event != _STEP_END:
-            at_end = _event_value(event, result, q, datum)
+            event, at_start = RELOADING, -result[0]
+        if event != STEP_END:
+            at_end = event_value(event, result, q, datum)
             if at_end < -_STILL[event]:
-                length = _locate(
+                length = locate(
                     event,
                     at_start,
                     at_end,
@@ -328,14 +165,15 @@ def split_step(
                     modes,
                     bends,
                     count,
+                    result,
                 )
-            elif event == _LOADING_ENDS and result[0] + result[1] < -STILL_SLOPE:
+            elif event == LOADING_ENDS and result[0] + result[1] < -STILL_SLOPE:
                 length = 0.0
             else:
-                event = _STEP_END
+                event = STEP_END
         if v < 0.0 and result[3] >= 0.0 and result[3] - v > STILL_VELOCITY and unsettled == 0:
-            apex = _locate(
-                _APEX,
+            apex = locate(
+                APEX,
                 -v,
                 -result[3],
                 rest,
@@ -353,15 +191,16 @@ def split_step(
                 modes,
                 bends,
                 count,
+                result,
             )
-            if apex < length or event == _STEP_END:
-                event = _APEX
+            if apex < length or event == STEP_END:
+                event = APEX
                 length = apex
         if rest - length < _SHORTEST_PART * h:
             length = rest
         if length > _SHORTEST_PART * h:
             if length < rest:
-                result = _part(
+                result = part_of_step(
                     phase,
                     t,
                     length,
@@ -395,18 +234,18 @@ def split_step(
             elif phase == UNLOADING:
                 q = d - e - datum
             force = max(force_1, 0.0)
-        if event == _LOADING_ENDS:
+        if event == LOADING_ENDS:
             phase = UNLOADING
             if half_space == TWO_POLE:
                 # This half space answers a force with an acceleration: the force falls to what moves both alike.
-                thrust = (exciter[2] + exciter[3] * t) * math.sin(exciter[1] + exciter[0] * t)
+                thrust = thrust_at(t, exciter)
                 force = max(joint_force(e, w, thrust, two_pole, constants), 0.0)
-        elif event == _RELOADING or event == _CONTACT:
+        elif event == RELOADING or event == CONTACT:
             phase = LOADING
-        elif event == _LIFT_OFF:
+        elif event == LIFT_OFF:
             phase = AIR
             force = 0.0
-        elif event == _APEX:
+        elif event == APEX:
             # At the apex itself the velocity is zero, not the rounding error that would find the apex again.
             v = 0.0
             if phase == UNLOADING:

@@ -95,7 +95,6 @@ class ExactGround(Ground):
             self._constants,
             self._sine,
             self._cosine,
-            self._angle,
             *self._answers,
             self._free,
             self._free_rate,

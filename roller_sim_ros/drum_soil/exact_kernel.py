@@ -69,7 +69,6 @@ def advance(
     constants: Array,
     sine: Array,
     cosine: Array,
-    phase_angle: Array,
     middle: Array,
     ramp_2: Array,
     ramp: Array,
@@ -93,7 +92,7 @@ def advance(
         Physical state at the first sample; on return at the sample after the last.
     constants : ndarray, shape (CONSTANTS_SIZE,)
         Of the revolution.
-    sine, cosine, phase_angle : ndarray, shape (samples per revolution + 1,)
+    sine, cosine : ndarray, shape (samples per revolution + 1,)
         Of the eccentric at the revolution's samples.
     middle : ndarray, shape (3,)
         P, R and s at h/2, H0 included here and below.
@@ -125,6 +124,7 @@ def advance(
     answer_middle = (middle[0], middle[1], middle[2])
     answer_end = (ramp_2[1], ramp[1], step[1])
     bulge = h * h * h / 6.0
+    over_h = 1.0 / h
     drum_constants = (mass, static_load, plastic)
     d = state[at.DEPTH]
     v = state[at.VELOCITY]
@@ -151,13 +151,17 @@ def advance(
         out[at.OUT_DATUM, i] = datum
         out[at.OUT_PHASE, i] = phase
 
-        motion = free_motion(h, e, w, free[i + 1], free_rate[i + 1], free[i + 2], free_rate[i + 2])
-        known_end = (motion[2], motion[3])
+        e_next, w_next, e_2, w_2 = free[i + 1], free_rate[i + 1], free[i + 2], free_rate[i + 2]
+        # The quintic of `free_motion` at h/2; first what does not wait for the step before.
         known_middle = (
-            0.5 * (e + known_end[0])
-            + 0.125 * h * (w - known_end[1])
-            + 0.0625 * (motion[4] - 1.5 * motion[5]),
-            1.5 * (known_end[0] - e) / h - 0.25 * (w + known_end[1]) + 0.0625 * motion[5] / h,
+            0.5625 * e_next
+            + 0.0859375 * e_2
+            - h * (0.28125 * w_next + 0.0234375 * w_2)
+            + (0.3515625 * e + 0.0703125 * h * w),
+            over_h * (1.5 * e_next - 0.046875 * e_2)
+            - 0.1875 * w_next
+            + 0.015625 * w_2
+            - (1.453125 * over_h * e + 0.234375 * w),
         )
         slope_start, slope_end, d_1, v_1, force_1, e_1, w_1 = solve_part(
             phase,
@@ -168,7 +172,7 @@ def advance(
             exciter_motion(0.5 * h, omega, sine[j], cosine[j], amplitude, rate),
             exciter_motion(h, omega, sine[j], cosine[j], amplitude, rate),
             known_middle,
-            known_end,
+            (e_next, w_next),
             answer_middle,
             answer_end,
             drum_constants,
@@ -189,13 +193,14 @@ def advance(
                 (d, v, force, e, w, q, datum),
                 h,
                 drum_constants,
-                (omega, phase_angle[j], amplitude, rate),
+                (omega, sine[j], cosine[j], amplitude, rate),
                 FINITE_MEMORY,
-                motion,
+                free_motion(h, e, w, e_next, w_next, e_2, w_2),
                 (ramp[1], step[1]),
                 (0.0, 0.0, 0.0),
                 modes,
                 bends,
+                (slope_start, slope_end, d_1, v_1, force_1, e_1, w_1),
             )
             d, v, force, e, w, q, datum = new
             unsettled_steps += unsettled

@@ -59,7 +59,6 @@ class RationalGround(Ground):
             self._constants,
             self._sine,
             self._cosine,
-            self._angle,
             self._modes,
             self._bends,
         )

@@ -14,6 +14,7 @@ from __future__ import annotations
 import math
 
 from roller_sim_ros.drum_soil.parts import Constants, Pair, Result
+from roller_sim_ros.exciter.force import small_turn
 from roller_sim_ros.jit import inlined, njit
 
 TwoPole = tuple[float, float, float]
@@ -37,19 +38,40 @@ def oscillation(x: float, decay: float, stiffness: float) -> Triple:
         y for (y, y') = (1, 0) and for (0, 1) at the start, and the latter's rate; c1' = −stiffness c2.
     """
     square = decay * decay - stiffness
-    damped = math.exp(-decay * x)
     turn = math.sqrt(abs(square)) * x
-    if turn < 1e-4:
-        # Near critical damping: the series of both branches.
-        c2 = damped * x * (1.0 + square * x * x / 6.0)
-        even = damped * (1.0 + 0.5 * square * x * x)
+    if turn < 0.03:
+        # Near critical damping, and in a short time: the series of both branches.
+        damped = math.exp(-decay * x)
+        y = square * x * x
+        c2 = damped * x * (1.0 + y * (1.0 / 6.0 + y * (1.0 / 120.0 + y * (1.0 / 5040.0))))
+        even = damped * (1.0 + y * (0.5 + y * (1.0 / 24.0 + y * (1.0 / 720.0 + y / 40320.0))))
     elif square > 0.0:
-        c2 = damped * math.sinh(turn) / turn * x
-        even = damped * math.cosh(turn)
+        slow = 0.5 * math.exp(turn - decay * x)
+        fast = 0.5 * math.exp(-turn - decay * x)
+        c2 = (slow - fast) / turn * x
+        even = slow + fast
     else:
+        damped = math.exp(-decay * x)
         c2 = damped * math.sin(turn) / turn * x
         even = damped * math.cos(turn)
     return even + decay * c2, c2, even - decay * c2
+
+
+@inlined
+def twice(motion: Triple, stiffness: float) -> Triple:
+    """Return the free solutions at 2 x from those at x."""
+    c1, c2, c2_rate = motion
+    both = stiffness * c2 * c2
+    return c1 * c1 - both, c2 * (c1 + c2_rate), c2_rate * c2_rate - both
+
+
+@inlined
+def together(first: Triple, second: Triple, stiffness: float) -> Pair:
+    """Return the solution for (0, 1) and its rate at x + y from the free solutions at x and at y."""
+    return (
+        first[0] * second[1] + first[1] * second[2],
+        first[2] * second[2] - stiffness * first[1] * second[1],
+    )
 
 
 @njit
@@ -63,14 +85,27 @@ def two_pole_answer(x: float, two_pole: TwoPole) -> tuple[Triple, Triple]:
     two_pole
         ω0, Q, H0.
     """
+    omega, quality, _ = two_pole
+    motion = oscillation(x, 0.5 * omega / quality, omega * omega)
+    return _answer(x, motion, two_pole), motion
+
+
+@inlined
+def two_pole_answer_at_twice(x: float, half: Triple, two_pole: TwoPole) -> tuple[Triple, Triple]:
+    """As `two_pole_answer`, from the free solutions at x/2."""
+    motion = twice(half, two_pole[0] * two_pole[0])
+    return _answer(x, motion, two_pole), motion
+
+
+@inlined
+def _answer(x: float, motion: Triple, two_pole: TwoPole) -> Triple:
     omega, quality, compliance = two_pole
     stiffness = omega * omega
     damping = omega / quality
-    motion = oscillation(x, 0.5 * damping, stiffness)
     step = 1.0 - motion[0]
     ramp = x - motion[1] - damping / stiffness * step
     ramp_2 = 0.5 * x * x - (step + damping * ramp) / stiffness
-    return (compliance * ramp_2, compliance * ramp, compliance * step), motion
+    return compliance * ramp_2, compliance * ramp, compliance * step
 
 
 @inlined
@@ -118,19 +153,15 @@ def gauss_thrusts(
     at_1, at_2, at_3, rate_start, at_end, rate_end, at_start : float
         m/s² and m/s³.
     """
-    angle_1, angle_2, angle_3 = omega * _NODES[0] * x, omega * _NODES[1] * x, omega * _NODES[2] * x
-    at_1 = (amplitude + rate * _NODES[0] * x) * (
-        sine * math.cos(angle_1) + cosine * math.sin(angle_1)
-    )
-    at_2 = (amplitude + rate * _NODES[1] * x) * (
-        sine * math.cos(angle_2) + cosine * math.sin(angle_2)
-    )
-    at_3 = (amplitude + rate * _NODES[2] * x) * (
-        sine * math.cos(angle_3) + cosine * math.sin(angle_3)
-    )
-    turn = omega * x
-    sine_end = sine * math.cos(turn) + cosine * math.sin(turn)
-    cosine_end = cosine * math.cos(turn) - sine * math.sin(turn)
+    sine_1, cosine_1 = small_turn(omega * _NODES[0] * x)
+    sine_2, cosine_2 = small_turn(omega * _NODES[1] * x)
+    sine_3, cosine_3 = small_turn(omega * _NODES[2] * x)
+    turn_sine, turn_cosine = small_turn(omega * x)
+    at_1 = (amplitude + rate * _NODES[0] * x) * (sine * cosine_1 + cosine * sine_1)
+    at_2 = (amplitude + rate * _NODES[1] * x) * (sine * cosine_2 + cosine * sine_2)
+    at_3 = (amplitude + rate * _NODES[2] * x) * (sine * cosine_3 + cosine * sine_3)
+    sine_end = sine * turn_cosine + cosine * turn_sine
+    cosine_end = cosine * turn_cosine - sine * turn_sine
     end = amplitude + rate * x
     return (
         at_1,
@@ -161,13 +192,16 @@ def joint_answer(
     decay = 0.5 * soil_mass * omega / quality / total
     stiffness = 1.0 / (compliance * total)
     share = mass / total
-    _, first, first_rate = oscillation((1.0 - _NODES[0]) * x, decay, stiffness)
-    _, middle, middle_rate = oscillation((1.0 - _NODES[1]) * x, decay, stiffness)
+    half = oscillation(0.5 * x, decay, stiffness)
+    _, middle, middle_rate = half
+    # The Gauss points lie symmetrically about the middle.
     _, last, last_rate = oscillation((1.0 - _NODES[2]) * x, decay, stiffness)
+    apart = oscillation(_GAUSS_OFFSET * x, decay, stiffness)
+    first, first_rate = together(half, apart, stiffness)
     outer = share * _OUTER_WEIGHT * x
     inner = share * _INNER_WEIGHT * x
     return (
-        oscillation(x, decay, stiffness),
+        twice(half, stiffness),
         (outer * first, inner * middle, outer * last),
         (outer * first_rate, inner * middle_rate, outer * last_rate),
         share,

@@ -73,7 +73,6 @@ class TwoPoleGround(Ground):
             self._constants,
             self._sine,
             self._cosine,
-            self._angle,
             NO_MODES,
             self._bends,
         )

@@ -30,7 +30,6 @@ def advance(
     constants: Array,
     sine: Array,
     cosine: Array,
-    phase_angle: Array,
     modes: Modes,
     bends: Array,
     out: Array,
@@ -45,7 +44,7 @@ def advance(
         Physical state at the first sample; on return at the sample after the last.
     constants : ndarray, shape (CONSTANTS_SIZE,)
         Of the revolution.
-    sine, cosine, phase_angle : ndarray, shape (samples per revolution + 1,)
+    sine, cosine : ndarray, shape (samples per revolution + 1,)
         Of the eccentric at the revolution's samples.
     modes : ndarray, shape (ROWS, 0)
         None: this half space has no modes.
@@ -133,13 +132,14 @@ def advance(
                 (d, v, force, e, w, q, datum),
                 h,
                 drum_constants,
-                (omega, phase_angle[j], amplitude, rate),
+                (omega, sine[j], cosine[j], amplitude, rate),
                 TWO_POLE,
                 (0.0, 0.0, 0.0, 0.0, 0.0, 0.0),
                 (0.0, 0.0),
                 two_pole,
                 modes,
                 bends,
+                result,
             )
             d, v, force, e, w, q, datum = new
             unsettled_steps += unsettled

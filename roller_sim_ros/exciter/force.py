@@ -53,3 +53,26 @@ def exciter_motion(
         amplitude * travel_sin_0 + amplitude_rate * travel_sin_1
     )
     return velocity, travel
+
+
+@inlined
+def small_turn(angle: float) -> tuple[float, float]:
+    """Return sine and cosine of an angle up to 2π/32, by power series: exact to rounding."""
+    y = angle * angle
+    sine = angle * (
+        1.0
+        - y
+        * (
+            1.0 / 6.0
+            - y * (1.0 / 120.0 - y * (1.0 / 5040.0 - y * (1.0 / 362880.0 - y / 39916800.0)))
+        )
+    )
+    cosine = 1.0 - y * (
+        0.5
+        - y
+        * (
+            1.0 / 24.0
+            - y * (1.0 / 720.0 - y * (1.0 / 40320.0 - y * (1.0 / 3628800.0 - y / 479001600.0)))
+        )
+    )
+    return sine, cosine

@@ -21,7 +21,7 @@ LANES = 8
 EMPTY = 3.0
 """Phase of a lane without a trajectory."""
 
-_ROWS = 70
+_ROWS = 78
 
 (
     # The state, in the order of `drum_soil.state`, and whether the step at hand changes the phase.
@@ -89,6 +89,7 @@ _ROWS = 70
     PULL_RATE_3,
     JOINT_STIFFNESS,
     TWICE_JOINT_DECAY,
+    JOINT_SHARE,
     SHARE_LESS_ONE,
     INVERSE_SUM,
     COSINE_1,
@@ -99,6 +100,14 @@ _ROWS = 70
     SINE_2,
     SINE_3,
     SINE_END,
+    # What the whole step at hand comes to, as in `parts.Result`: for the lane whose phase changes in it.
+    NEXT_SLOPE_START,
+    NEXT_SLOPE_END,
+    NEXT_DEPTH,
+    NEXT_VELOCITY,
+    NEXT_FORCE,
+    NEXT_SURFACE,
+    NEXT_SURFACE_RATE,
     # Steps whose phases did not settle.
     UNSETTLED,
 ) = range(0, LANES * _ROWS, LANES)
@@ -217,6 +226,7 @@ def _load_unloading(
     x[PULL_RATE_1 + n], x[PULL_RATE_2 + n], x[PULL_RATE_3 + n] = pull_rates
     x[JOINT_STIFFNESS + n] = stiffness
     x[TWICE_JOINT_DECAY + n] = 2.0 * decay
+    x[JOINT_SHARE + n] = share
     x[SHARE_LESS_ONE + n] = share - 1.0
     natural, _, compliance = two_pole
     x[INVERSE_SUM + n] = natural * natural * compliance + 1.0 / mass

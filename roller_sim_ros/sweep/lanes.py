@@ -44,7 +44,6 @@ def settle(
     early_stop: bool,
     sine: Array,
     cosine: Array,
-    angle: Array,
     modes: Modes,
     bends: Array,
     lanes: Array,
@@ -69,7 +68,7 @@ def settle(
         Revolutions before those that are recorded, and those.
     early_stop : bool
         Record one period, and no more, of a motion that repeats to rounding.
-    sine, cosine, angle : ndarray, shape (samples per revolution + 1,)
+    sine, cosine : ndarray, shape (samples per revolution + 1,)
         Of the eccentric.
     modes, bends : ndarray
         As the kernels take them.
@@ -114,7 +113,7 @@ def settle(
             if air > 0:
                 waiting += step_in_air(lanes, sine[j], cosine[j])
             if waiting > 0:
-                _split(lanes, angle[j], modes, bends)
+                _split(lanes, sine[j], cosine[j], modes, bends)
                 loading, unloading, air = _phases(lanes)
         for n in range(LANES):
             if runs[n, _RUN] >= 0:
@@ -163,7 +162,7 @@ def _record(
 
 
 @njit
-def _split(lanes: Array, angle: float, modes: Modes, bends: Array) -> None:
+def _split(lanes: Array, sine: float, cosine: float, modes: Modes, bends: Array) -> None:
     """Take the step of the lanes that wait, their phase changes located."""
     for n in range(LANES):
         if lanes[of.CHANGES + n] == 0.0:
@@ -186,7 +185,7 @@ def _split(lanes: Array, angle: float, modes: Modes, bends: Array) -> None:
                 lanes[of.STATIC_LOAD + n],
                 lanes[of.PLASTIC_COMPLIANCE + n],
             ),
-            (lanes[of.OMEGA + n], angle, lanes[of.AMPLITUDE + n], 0.0),
+            (lanes[of.OMEGA + n], sine, cosine, lanes[of.AMPLITUDE + n], 0.0),
             at.TWO_POLE,
             (0.0, 0.0, 0.0, 0.0, 0.0, 0.0),
             (0.0, 0.0),
@@ -197,6 +196,15 @@ def _split(lanes: Array, angle: float, modes: Modes, bends: Array) -> None:
             ),
             modes,
             bends,
+            (
+                lanes[of.NEXT_SLOPE_START + n],
+                lanes[of.NEXT_SLOPE_END + n],
+                lanes[of.NEXT_DEPTH + n],
+                lanes[of.NEXT_VELOCITY + n],
+                lanes[of.NEXT_FORCE + n],
+                lanes[of.NEXT_SURFACE + n],
+                lanes[of.NEXT_SURFACE_RATE + n],
+            ),
         )
         lanes[of.DEPTH + n] = state[0]
         lanes[of.VELOCITY + n] = state[1]

@@ -59,6 +59,13 @@ def step_in_air(x: Array, sine: float, cosine: float) -> int:
         x[of.SURFACE_RATE + n] = w_1 if goes else w
         x[of.PLASTIC + n] = 0.0 if renews else q
         x[of.DATUM + n] = d_1 - e_1 if deeper else datum
+        x[of.NEXT_SLOPE_START + n] = 0.0 if here else x[of.NEXT_SLOPE_START + n]
+        x[of.NEXT_SLOPE_END + n] = 0.0 if here else x[of.NEXT_SLOPE_END + n]
+        x[of.NEXT_DEPTH + n] = d_1 if here else x[of.NEXT_DEPTH + n]
+        x[of.NEXT_VELOCITY + n] = v_1 if here else x[of.NEXT_VELOCITY + n]
+        x[of.NEXT_FORCE + n] = 0.0 if here else x[of.NEXT_FORCE + n]
+        x[of.NEXT_SURFACE + n] = e_1 if here else x[of.NEXT_SURFACE + n]
+        x[of.NEXT_SURFACE_RATE + n] = w_1 if here else x[of.NEXT_SURFACE_RATE + n]
         x[of.CHANGES + n] = 1.0 if waits else marked
         waiting += 1 if waits else 0
     return waiting
@@ -105,6 +112,16 @@ def step_unloading(x: Array, sine: float, cosine: float) -> int:
             + stiffness * w_1
             + x[of.SHARE_LESS_ONE + n] * thrust_rate
         )
+        a_0 = (
+            -x[of.TWICE_JOINT_DECAY + n] * w
+            - stiffness * y
+            - x[of.JOINT_SHARE + n] * (amplitude * sine)
+        )
+        slope_0 = mass * (
+            x[of.TWICE_JOINT_DECAY + n] * a_0
+            + stiffness * w
+            + x[of.SHARE_LESS_ONE + n] * (x[of.AMPLITUDE_RATE + n] * cosine)
+        )
         d_1 = e_1 + (q + datum)
         apex = (v < 0.0) & (w_1 >= 0.0) & (w_1 - v > STILL_VELOCITY)
         waits = here & ((slope_1 > STILL_SLOPE) | (force_1 < 0.0) | apex)
@@ -114,6 +131,13 @@ def step_unloading(x: Array, sine: float, cosine: float) -> int:
         x[of.FORCE + n] = force_1 if goes else force
         x[of.SURFACE + n] = e_1 if goes else e
         x[of.SURFACE_RATE + n] = w_1 if goes else w
+        x[of.NEXT_SLOPE_START + n] = slope_0 if here else x[of.NEXT_SLOPE_START + n]
+        x[of.NEXT_SLOPE_END + n] = slope_1 if here else x[of.NEXT_SLOPE_END + n]
+        x[of.NEXT_DEPTH + n] = d_1 if here else x[of.NEXT_DEPTH + n]
+        x[of.NEXT_VELOCITY + n] = w_1 if here else x[of.NEXT_VELOCITY + n]
+        x[of.NEXT_FORCE + n] = force_1 if here else x[of.NEXT_FORCE + n]
+        x[of.NEXT_SURFACE + n] = e_1 if here else x[of.NEXT_SURFACE + n]
+        x[of.NEXT_SURFACE_RATE + n] = w_1 if here else x[of.NEXT_SURFACE_RATE + n]
         x[of.CHANGES + n] = 1.0 if waits else marked
         waiting += 1 if waits else 0
     return waiting
@@ -169,6 +193,13 @@ def step_loading(x: Array, sine: float, cosine: float) -> int:
         x[of.SURFACE + n] = e_1 if goes else e
         x[of.SURFACE_RATE + n] = w_1 if goes else w
         x[of.PLASTIC + n] = q_1 if goes else q
+        x[of.NEXT_SLOPE_START + n] = jump if here else x[of.NEXT_SLOPE_START + n]
+        x[of.NEXT_SLOPE_END + n] = slope_1 if here else x[of.NEXT_SLOPE_END + n]
+        x[of.NEXT_DEPTH + n] = d_1 if here else x[of.NEXT_DEPTH + n]
+        x[of.NEXT_VELOCITY + n] = v_1 if here else x[of.NEXT_VELOCITY + n]
+        x[of.NEXT_FORCE + n] = force_1 if here else x[of.NEXT_FORCE + n]
+        x[of.NEXT_SURFACE + n] = e_1 if here else x[of.NEXT_SURFACE + n]
+        x[of.NEXT_SURFACE_RATE + n] = w_1 if here else x[of.NEXT_SURFACE_RATE + n]
         x[of.CHANGES + n] = 1.0 if waits else marked
         waiting += 1 if waits else 0
     return waiting
