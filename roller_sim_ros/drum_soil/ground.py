@@ -103,6 +103,7 @@ class Ground(ABC):
         self._samples = samples_per_revolution
         self._direction: Direction = DIRECTIONS[exciter.kind](exciter.tilt_rad)
         self._soil: Soil = soil
+        self._revolution: Revolution | None = None
         self.strip = loaded_strip(machine, soil, half_space)
         self.state = np.zeros(at.STATE_SIZE)
         self._constants = np.zeros(at.CONSTANTS_SIZE)
@@ -126,6 +127,9 @@ class Ground(ABC):
 
     def begin(self, revolution: Revolution, soil: Soil) -> None:
         """Take over the plan and the soil of the next revolution; force and acceleration do not step."""
+        if revolution is self._revolution and soil is self._soil:
+            return
+        self._revolution = revolution
         direction = self._direction
         constants = self._constants
         mass = self._machine.drum_mass_kg

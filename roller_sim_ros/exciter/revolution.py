@@ -110,13 +110,23 @@ class ExciterDrive:
         self.amplitude_m = 0.0 if run_up else self.target_amplitude_m
         self.fault: DriveFault | None = None
         self._phase_turns = 0.0
+        self._last: Revolution | None = None
         self._acceleration = self._full_acceleration()
 
     def next_revolution(self) -> Revolution:
-        """Plan the next revolution and move on to its end."""
-        before = (self.frequency_hz, self.amplitude_m)
-        duration_s = 1.0 / max(self.frequency_hz, self._floor_hz)
+        """Plan the next revolution and move on to its end; the same object as before where nothing changes."""
         target_hz, target_m, rate_factor = self._obeyed()
+        before = (self.frequency_hz, self.amplitude_m)
+        last = self._last
+        if (
+            last is not None
+            and not last.changing
+            and last.start_acceleration == last.end_acceleration
+            and before == (target_hz, target_m)
+            and target_hz >= self._floor_hz
+        ):
+            return last
+        duration_s = 1.0 / max(self.frequency_hz, self._floor_hz)
         self.frequency_hz = self._next_frequency(
             target_hz, self.frequency_rate_hz_per_s * rate_factor * duration_s
         )
@@ -135,7 +145,7 @@ class ExciterDrive:
             self._phase_turns = 0.0 if min(end, 1.0 - end) < 1e-9 else end
         start_acceleration = self._acceleration
         self._acceleration = self._full_acceleration()
-        return Revolution(
+        self._last = Revolution(
             frequency_hz=self.frequency_hz,
             sample_period_s=sample_period_s,
             phase_rad=TWO_PI * start_turns,
@@ -145,6 +155,7 @@ class ExciterDrive:
             end_acceleration=self._acceleration,
             changing=before != (self.frequency_hz, self.amplitude_m),
         )
+        return self._last
 
     def _obeyed(self) -> tuple[float, float, float]:
         """Return frequency and amplitude that the drive goes for, and the factor of its rates."""
