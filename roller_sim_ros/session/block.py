@@ -11,7 +11,7 @@ LOADING, UNLOADING, AIR = 0, 1, 2
 """Contact states (paper, Figure 13): values of ``Block.contact_state``."""
 
 
-@dataclass(frozen=True)
+@dataclass(eq=False)
 class Block:
     """Samples that share one sample period and one excitation frequency.
 
