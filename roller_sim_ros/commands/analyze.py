@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import argparse
-import json
 from pathlib import Path
 
+from roller_sim_ros.commands.numbers import not_negative, positive, whole
+from roller_sim_ros.commands.output import write_json
 from roller_sim_ros.commands.progress import progress
 from roller_sim_ros.errors import RollerSimError
 from roller_sim_ros.parameters import PARAMETERS, SAMPLES_PER_REVOLUTION
@@ -64,7 +65,7 @@ def main(argv: list[str] | None = None) -> int:
     analysis = analyse(arguments.bag, options, progress("reading", always=arguments.progress))
     report = as_object(analysis)
     if arguments.json is not None:
-        _write_json(report, arguments.json)
+        write_json(report, arguments.json)
     if arguments.json != "-":
         print(as_table(report))
     if arguments.csv is not None:
@@ -128,21 +129,21 @@ def _parser() -> argparse.ArgumentParser:
     parser.add_argument(
         "--noise-floor",
         metavar="A",
-        type=_not_negative,
+        type=not_negative,
         help="amplitude at the excitation frequency below which there is no value, m/s² (default: that "
         f"of the recorded run, else {PARAMETERS['meter.noise_floor_m_s2'][1]})",
     )
     parser.add_argument(
         "--samples-per-rev",
         metavar="N",
-        type=_samples,
+        type=whole(16),
         help="samples per revolution of a DrumAcceleration trace (default: that of the recorded run, else "
         f"{SAMPLES_PER_REVOLUTION})",
     )
     parser.add_argument(
         "--frequency-hz",
         metavar="HZ",
-        type=_positive,
+        type=positive,
         help="excitation frequency of an Imu stream, Hz (default: found from its spectrum)",
     )
     parser.add_argument(
@@ -158,35 +159,3 @@ def _even(text: str) -> int:
     if number < 2 or number % 2:
         raise argparse.ArgumentTypeError(f"{number} is not a positive even number")
     return number
-
-
-def _samples(text: str) -> int:
-    number = int(text)
-    if number < 16:
-        raise argparse.ArgumentTypeError(f"{number} is less than 16")
-    return number
-
-
-def _not_negative(text: str) -> float:
-    number = float(text)
-    if not 0.0 <= number < float("inf"):
-        raise argparse.ArgumentTypeError(f"{text} is not a number of at least 0")
-    return number
-
-
-def _positive(text: str) -> float:
-    number = float(text)
-    if not 0.0 < number < float("inf"):
-        raise argparse.ArgumentTypeError(f"{text} is not a positive number")
-    return number
-
-
-def _write_json(report: dict[str, object], name: str) -> None:
-    text = json.dumps(report, indent=2, ensure_ascii=False, allow_nan=False)
-    if name == "-":
-        print(text)
-        return
-    try:
-        Path(name).write_text(text + "\n", encoding="utf-8")
-    except OSError as error:
-        raise RollerSimError(f"{name}: cannot be written: {error.strerror or error}") from None

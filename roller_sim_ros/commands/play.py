@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import argparse
-import math
 import sys
 import time
 from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from roller_sim_ros.commands.numbers import positive, whole
 from roller_sim_ros.errors import RollerSimError
 
 if TYPE_CHECKING:
@@ -109,7 +109,7 @@ def _parser() -> argparse.ArgumentParser:
     parser.add_argument(
         "--rate",
         metavar="X",
-        type=_rate,
+        type=positive,
         default=1.0,
         help="speed over the original one; the stamps stay as they are (default: %(default)s)",
     )
@@ -131,7 +131,7 @@ def _parser() -> argparse.ArgumentParser:
     parser.add_argument(
         "--subscribers",
         metavar="N",
-        type=_count,
+        type=whole(0),
         default=0,
         help="wait until there are so many subscriptions to the topics together (default: %(default)s)",
     )
@@ -144,20 +144,6 @@ def _parser() -> argparse.ArgumentParser:
         "(default: %(default)s)",
     )
     return parser
-
-
-def _rate(text: str) -> float:
-    number = float(text)
-    if not (number > 0.0 and math.isfinite(number)):
-        raise argparse.ArgumentTypeError(f"{text} is not a positive number")
-    return number
-
-
-def _count(text: str) -> int:
-    number = int(text)
-    if number < 0:
-        raise argparse.ArgumentTypeError(f"{number} is less than 0")
-    return number
 
 
 def _seconds(text: str) -> float:

@@ -3,16 +3,16 @@
 from __future__ import annotations
 
 import argparse
-import json
 import time
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from roller_sim_ros.commands import scenario_run
 from roller_sim_ros.commands.flags import add_parameter_flags, given_values
+from roller_sim_ros.commands.numbers import whole
+from roller_sim_ros.commands.output import write_json
 from roller_sim_ros.commands.progress import progress
 from roller_sim_ros.commands.soil_flags import add_soil_flags, with_presets
-from roller_sim_ros.errors import RollerSimError
 from roller_sim_ros.parameters import Configuration, ParameterError
 from roller_sim_ros.parameters.file import read_parameters
 
@@ -71,7 +71,7 @@ def main(argv: list[str] | None = None) -> int:
     else:
         report, table = _run_on_the_spot(arguments)
     if arguments.json is not None:
-        _write_json(report, arguments.json)
+        write_json(report, arguments.json)
     if arguments.json != "-":
         print(table)
     return 0
@@ -128,7 +128,7 @@ def _parser() -> argparse.ArgumentParser:
     parser.add_argument(
         "--revolutions",
         metavar="N",
-        type=_revolutions,
+        type=whole(2),
         help="revolutions to run, at least 2; below the sampling floor: as many samples (default: "
         f"{REVOLUTIONS}; of a scenario: all, more cut it short)",
     )
@@ -164,21 +164,3 @@ def _parser() -> argparse.ArgumentParser:
     add_soil_flags(parser)
     add_parameter_flags(parser)
     return parser
-
-
-def _revolutions(text: str) -> int:
-    number = int(text)
-    if number < 2:
-        raise argparse.ArgumentTypeError(f"{number} is less than 2")
-    return number
-
-
-def _write_json(report: dict[str, object], name: str) -> None:
-    text = json.dumps(report, indent=2, ensure_ascii=False, allow_nan=False)
-    if name == "-":
-        print(text)
-        return
-    try:
-        Path(name).write_text(text + "\n", encoding="utf-8")
-    except OSError as error:
-        raise RollerSimError(f"{name}: cannot be written: {error.strerror or error}") from None

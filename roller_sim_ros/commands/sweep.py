@@ -12,6 +12,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, NoReturn
 
 from roller_sim_ros.commands.axis_flags import add_axis_flags, axis_of_flag, given_axes
+from roller_sim_ros.commands.numbers import whole
 from roller_sim_ros.commands.soil_flags import add_soil_flags, soil_from, with_presets
 from roller_sim_ros.errors import RollerSimError
 from roller_sim_ros.parameters import Configuration
@@ -278,7 +279,7 @@ def _parser() -> argparse.ArgumentParser:
     parser.add_argument(
         "--revolutions",
         metavar="N",
-        type=_whole_number,
+        type=whole(1),
         default=DEFAULT_REVOLUTIONS,
         help="revolutions at each point, at least 2 (default: %(default)s)",
     )
@@ -302,7 +303,7 @@ def _parser() -> argparse.ArgumentParser:
     parser.add_argument(
         "--workers",
         metavar="N",
-        type=_whole_number,
+        type=whole(1),
         help="threads (default: one for each core); the results are the same",
     )
     parser.add_argument(
@@ -324,10 +325,3 @@ def _parser() -> argparse.ArgumentParser:
     add_soil_flags(parser)
     add_axis_flags(parser, exclude=("recording.path",))
     return parser
-
-
-def _whole_number(text: str) -> int:
-    number = int(text)
-    if number < 1:
-        raise argparse.ArgumentTypeError(f"{number} is less than 1")
-    return number

@@ -1,0 +1,27 @@
+"""Results that a command writes."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping
+from pathlib import Path
+
+from roller_sim_ros.errors import RollerSimError
+
+
+def write_json(report: Mapping[str, object], name: str) -> None:
+    """Write a JSON object to a file, or with ``-`` to the standard output.
+
+    Raises
+    ------
+    RollerSimError
+        If the file cannot be written.
+    """
+    text = json.dumps(report, indent=2, ensure_ascii=False, allow_nan=False)
+    if name == "-":
+        print(text)
+        return
+    try:
+        Path(name).write_text(text + "\n", encoding="utf-8")
+    except OSError as error:
+        raise RollerSimError(f"{name}: cannot be written: {error.strerror or error}") from None
