@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import threading
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import contextmanager
 
 from roller_sim_ros.emulation.instruments import Instruments
 from roller_sim_ros.faults import Scheduled, Span
@@ -277,6 +278,12 @@ class Emulator:
                 self.instruments.faults.clear_all()
             else:
                 self.instruments.faults.clear(handle)
+
+    @contextmanager
+    def held(self) -> Iterator[None]:
+        """Keep all other threads from advancing, commanding and changing it."""
+        with self._lock:
+            yield
 
     def refuse(self, code: Refusal, reason: str) -> None:
         """Let ``exciter/state`` say, from the next block to the next accepted command, what was refused.
