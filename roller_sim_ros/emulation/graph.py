@@ -137,7 +137,7 @@ class _Writer:
             node += [item.maxlen, [self.value(part) for part in item]]
         else:
             node.append(_name(kind))
-            node.append({key: self.value(part) for key, part in vars(item).items()})
+            node.append({key: self.value(part) for key, part in _attributes(item).items()})
         return place
 
     def _add(self, item: object, node: list[Any]) -> int:
@@ -267,11 +267,25 @@ class _Reader:
             if declared != attributes.keys():
                 raise GraphError(f"{name} has {', '.join(sorted(declared))}")
         self._fill.append(
-            lambda: vars(made).update(
-                {key: self._value(value) for key, value in attributes.items()}
+            lambda: _set_attributes(
+                made, {key: self._value(value) for key, value in attributes.items()}
             )
         )
         return made
+
+
+def _attributes(item: Any) -> dict[str, Any]:
+    if hasattr(item, "__dict__"):
+        return vars(item)
+    return {field.name: getattr(item, field.name) for field in dataclasses.fields(item)}
+
+
+def _set_attributes(made: Any, attributes: dict[str, Any]) -> None:
+    if hasattr(made, "__dict__"):
+        vars(made).update(attributes)
+        return
+    for name, value in attributes.items():
+        object.__setattr__(made, name, value)
 
 
 def _name(kind: type[Any]) -> str:
