@@ -32,6 +32,7 @@ setup(
     data_files=[
         shared("", "package.xml"),
         shared("msg", "*.msg"),
+        shared("srv", "*.srv"),
         shared("config", "*.yaml"),
         shared("launch", "*.launch.py"),
         shared("scenarios", "*.yaml"),

@@ -3,7 +3,7 @@
 #
 #   environment  .venv, from Python 3.11 or 3.12 ($PYTHON, when given)
 #   packages     ROS 2 and everything else that requirements/ pins, by pip
-#   messages     msg/ built with CMake, installed into .venv with the shared files and executables
+#   messages     msg/ and srv/ built with CMake, installed into .venv with the shared files and executables
 #   modules      roller_sim_ros/ made importable where it stands, and the command roller-sim
 #
 # The key of a stage is a hash of its inputs' contents and of the key before it; the key of the first
@@ -89,7 +89,7 @@ else
 fi
 environment_key=$(hash_of "$root $wanted")
 packages_key=$(hash_of "$environment_key" requirements)
-messages_key=$(hash_of "$packages_key" CMakeLists.txt package.xml msg cmake config launch scenarios)
+messages_key=$(hash_of "$packages_key" CMakeLists.txt package.xml msg srv cmake config launch scenarios)
 modules_key=$(hash_of "$packages_key" setup.py pyproject.toml package.xml)
 
 if done_before messages "$messages_key" && done_before modules "$modules_key" &&
@@ -131,7 +131,7 @@ fi
 site=$("$python" -c 'import sysconfig; print(sysconfig.get_path("purelib"))')
 
 if ! done_before messages "$messages_key"; then
-    say "messages: building $(find msg -name '*.msg' | wc -l) types with CMake"
+    say "messages: building $(find msg srv -name '*.msg' -o -name '*.srv' | wc -l) types with CMake"
     interfaces=lib/roller_sim_ros_interfaces
     export AMENT_PREFIX_PATH=$venv
     logged cmake -S . -B build/messages -Wno-dev \

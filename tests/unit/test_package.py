@@ -23,19 +23,24 @@ from roller_sim_ros.share import share_directory
 ROOT = Path(__file__).resolve().parents[2]
 SOURCE = ROOT / "roller_sim_ros"
 MESSAGES = sorted(path.stem for path in (ROOT / "msg").glob("*.msg"))
+SERVICES = sorted(path.stem for path in (ROOT / "srv").glob("*.srv"))
 
 # Of ROS, only these may be imported, and only by the modules named below.
 ROS_PACKAGES = (
     "ament_index_python",
     "builtin_interfaces",
     "diagnostic_msgs",
+    "geometry_msgs",
     "lifecycle_msgs",
     "rcl_interfaces",
     "rclpy",
     "roller_sim_ros.msg",
+    "roller_sim_ros.srv",
+    "rosgraph_msgs",
     "rosidl_runtime_py",
     "sensor_msgs",
     "std_msgs",
+    "std_srvs",
 )
 ROS_COMMANDS = ("sim", "play")
 
@@ -159,7 +164,7 @@ def test_version_is_the_same_everywhere() -> None:
 
 
 def test_messages_are_generated_and_are_those_of_the_sources() -> None:
-    assert len(MESSAGES) == 10
+    assert len(MESSAGES) == 13
     generated = importlib.import_module("roller_sim_ros.msg")
     for name in MESSAGES:
         text = (ROOT / "msg" / f"{name}.msg").read_text(encoding="utf-8")
@@ -172,11 +177,30 @@ def test_messages_are_generated_and_are_those_of_the_sources() -> None:
             assert getattr(message, constant) == int(value), f"{name}.{constant}"
 
 
+def test_services_are_generated_and_are_those_of_the_sources() -> None:
+    assert len(SERVICES) == 10
+    generated = importlib.import_module("roller_sim_ros.srv")
+    for name in SERVICES:
+        text = (ROOT / "srv" / f"{name}.srv").read_text(encoding="utf-8")
+        service = getattr(generated, name)
+        for part, section in zip(
+            (service.Request, service.Response), text.split("---"), strict=True
+        ):
+            lines = [line.split("#")[0].strip() for line in section.splitlines()]
+            fields = [line.split()[1] for line in lines if line and "=" not in line]
+            assert fields == list(part.get_fields_and_field_types()), name
+            constants = re.findall(r"^u?int\d+ ([A-Z_0-9]+)=(\d+)", section, flags=re.MULTILINE)
+            for constant, value in constants:
+                assert getattr(part, constant) == int(value), f"{name}.{constant}"
+
+
 def test_every_field_of_the_messages_is_explained() -> None:
-    for name in MESSAGES:
-        lines = (ROOT / "msg" / f"{name}.msg").read_text(encoding="utf-8").splitlines()
+    paths = [ROOT / "msg" / f"{name}.msg" for name in MESSAGES]
+    paths += [ROOT / "srv" / f"{name}.srv" for name in SERVICES]
+    for path in paths:
+        name, lines = path.stem, path.read_text(encoding="utf-8").splitlines()
         for before, line in itertools.pairwise(lines):
-            if line and not line.startswith("#"):
+            if line and not line.startswith(("#", "---")):
                 assert "#" in line or before.startswith("# ") or "=" in line, f"{name}: {line}"
 
 
