@@ -164,7 +164,7 @@ def test_version_is_the_same_everywhere() -> None:
 
 
 def test_messages_are_generated_and_are_those_of_the_sources() -> None:
-    assert len(MESSAGES) == 13
+    assert len(MESSAGES) == 14
     generated = importlib.import_module("roller_sim_ros.msg")
     for name in MESSAGES:
         text = (ROOT / "msg" / f"{name}.msg").read_text(encoding="utf-8")
