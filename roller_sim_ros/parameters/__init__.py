@@ -15,6 +15,8 @@ from roller_sim_ros.parameters.operation import (
     Pacing,
     Recording,
     Sampling,
+    ScenarioFile,
+    Travel,
 )
 from roller_sim_ros.parameters.quantity import ParameterError, ParameterGroup, Quantity, Value
 from roller_sim_ros.parameters.soil import Soil, covarying_plastic_parameter
@@ -34,7 +36,9 @@ __all__ = [
     "Quantity",
     "Recording",
     "Sampling",
+    "ScenarioFile",
     "Soil",
+    "Travel",
     "Value",
     "all_parameters",
     "covarying_plastic_parameter",

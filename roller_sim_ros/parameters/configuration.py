@@ -10,7 +10,14 @@ from typing import Any
 from roller_sim_ros.parameters.exciter import Exciter
 from roller_sim_ros.parameters.half_space import HalfSpace
 from roller_sim_ros.parameters.machine import Machine
-from roller_sim_ros.parameters.operation import Meter, Pacing, Recording, Sampling
+from roller_sim_ros.parameters.operation import (
+    Meter,
+    Pacing,
+    Recording,
+    Sampling,
+    ScenarioFile,
+    Travel,
+)
 from roller_sim_ros.parameters.quantity import (
     ParameterError,
     ParameterGroup,
@@ -22,7 +29,18 @@ from roller_sim_ros.parameters.soil import Soil
 
 GROUPS: dict[str, type[ParameterGroup]] = {
     item.group: item
-    for item in (Machine, Exciter, Soil, HalfSpace, Sampling, Meter, Pacing, Recording)
+    for item in (
+        Machine,
+        Exciter,
+        Travel,
+        Soil,
+        HalfSpace,
+        Sampling,
+        Meter,
+        Pacing,
+        ScenarioFile,
+        Recording,
+    )
 }
 
 
@@ -32,11 +50,13 @@ class Configuration:
 
     machine: Machine = field(default_factory=Machine)
     exciter: Exciter = field(default_factory=Exciter)
+    travel: Travel = field(default_factory=Travel)
     soil: Soil = field(default_factory=Soil)
     half_space: HalfSpace = field(default_factory=HalfSpace)
     sampling: Sampling = field(default_factory=Sampling)
     meter: Meter = field(default_factory=Meter)
     pacing: Pacing = field(default_factory=Pacing)
+    scenario: ScenarioFile = field(default_factory=ScenarioFile)
     recording: Recording = field(default_factory=Recording)
 
     def flat(self) -> dict[str, Value]:

@@ -9,6 +9,9 @@ from roller_sim_ros.parameters.quantity import ParameterError, ParameterGroup, p
 
 SAMPLES_PER_REVOLUTION = 128
 
+SLOWEST = 0.1
+"""Least speed of simulated time: a slower one is a pause to those who wait."""
+
 
 @dataclass(frozen=True)
 class Sampling(ParameterGroup):
@@ -67,11 +70,46 @@ class Meter(ParameterGroup):
 
 
 @dataclass(frozen=True)
+class Travel(ParameterGroup):
+    """Travel commands."""
+
+    group: ClassVar[str] = "travel"
+
+    command_timeout_s: float = parameter(
+        0.0,
+        "s",
+        "the roller stops when no travel command came for so long after the last; 0 switches the watchdog off",
+        minimum=0.0,
+        maximum=3600.0,
+        live=True,
+    )
+
+
+@dataclass(frozen=True)
 class Pacing(ParameterGroup):
-    """Real-time pacing of the node."""
+    """How the node's time passes."""
 
     group: ClassVar[str] = "pacing"
 
+    clock: str = parameter(
+        "real",
+        "",
+        "real: stamps and pace are the machine's; sim: time is the samples' own, begins at 0 and is published on /clock",
+        choices=("real", "sim"),
+    )
+    speed: float = parameter(
+        1.0,
+        "",
+        "simulated time only: simulated over real time; 0: as fast as possible",
+        minimum=0.0,
+        maximum=1000.0,
+    )
+    lock_step: bool = parameter(
+        False, "", "whether time stands still until a client steps it; in simulated time, implied"
+    )
+    publish_clock: bool = parameter(
+        True, "", "simulated time only: whether the node publishes /clock; another may be its owner"
+    )
     samples_per_message: int = parameter(
         16, "", "samples per block, a divisor of 128", minimum=1, maximum=SAMPLES_PER_REVOLUTION
     )
@@ -94,6 +132,34 @@ class Pacing(ParameterGroup):
                 self.samples_per_message,
                 f"must be a divisor of {SAMPLES_PER_REVOLUTION}",
             )
+        if 0.0 < self.speed < SLOWEST:
+            raise ParameterError(
+                "pacing.speed",
+                self.speed,
+                f"must be 0 (as fast as possible) or at least {SLOWEST:g}",
+            )
+        if self.speed != 1.0 and not self.simulated_time:
+            raise ParameterError(
+                "pacing.speed", self.speed, "needs simulated time: pacing.clock sim (--clock sim)"
+            )
+
+    @property
+    def simulated_time(self) -> bool:
+        """Whether time is that of the samples, whatever the machine's clock says."""
+        return self.clock == "sim" or self.lock_step
+
+
+@dataclass(frozen=True)
+class ScenarioFile(ParameterGroup):
+    """The scenario that the node runs."""
+
+    group: ClassVar[str] = "scenario"
+
+    path: str = parameter(
+        "",
+        "",
+        "scenario file, or the name of one that the package brings; empty: the roller stands where it is",
+    )
 
 
 @dataclass(frozen=True)
