@@ -56,3 +56,17 @@ def place_of(origin: Geodetic, east_m: float, north_m: float, up_m: float) -> Ge
         y + level * sine_l + cosine_l * east_m,
         z + sine * up_m + cosine * north_m,
     )
+
+
+def offset_of(origin: Geodetic, place: Geodetic) -> tuple[float, float, float]:
+    """Return east, north and up of a place in an origin's tangent plane, m."""
+    latitude, longitude = math.radians(origin.latitude_deg), math.radians(origin.longitude_deg)
+    sine, cosine = math.sin(latitude), math.cos(latitude)
+    sine_l, cosine_l = math.sin(longitude), math.cos(longitude)
+    x, y, z = (there - here for there, here in zip(to_ecef(place), to_ecef(origin), strict=True))
+    outward = cosine_l * x + sine_l * y
+    return (
+        cosine_l * y - sine_l * x,
+        cosine * z - sine * outward,
+        cosine * outward + sine * z,
+    )

@@ -1,0 +1,39 @@
+"""Tables as MATLAB files."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from scipy.io import savemat
+
+from roller_sim_ros.errors import RollerSimError
+from roller_sim_ros.export.table import Table
+
+MOST_BYTES = 1 << 31
+"""What a variable of a MATLAB 5 file can hold."""
+
+
+def write_mat(table: Table, path: Path) -> None:
+    """Write column vectors of the columns' names and a struct `parameters`, dots as underscores.
+
+    Raises
+    ------
+    RollerSimError
+        If a column is too long for the format.
+    """
+    columns = table.whole()
+    for name, column in columns.items():
+        if column.nbytes >= MOST_BYTES:
+            raise RollerSimError(
+                f"{path}: {name} has {column.nbytes} bytes, MATLAB 5 files hold less than {MOST_BYTES} in a "
+                "variable; take .parquet, which MATLAB reads with parquetread"
+            )
+    parameters = {name.replace(".", "_"): value for name, value in table.parameters.items()}
+    savemat(
+        path,
+        {**columns, "parameters": parameters},
+        appendmat=False,
+        long_field_names=True,
+        do_compression=True,
+        oned_as="column",
+    )
