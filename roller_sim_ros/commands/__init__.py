@@ -18,6 +18,7 @@ COMMANDS = {
     "run": "run the roller without ROS, as fast as it goes",
     "sweep": "map what the roller settles on over a grid of parameters",
     "analyze": "evaluate a trace: gaps, meter values, plot and CSV",
+    "export": "write a trace as CSV, Parquet, MATLAB, sound or a map",
     "play": "republish a trace over ROS 2 at its original pace",
     "recover": "rewrite a trace that was cut off, and state what was lost",
 }
