@@ -29,11 +29,12 @@ def write_mat(table: Table, path: Path) -> None:
                 "variable; take .parquet, which MATLAB reads with parquetread"
             )
     parameters = {name.replace(".", "_"): value for name, value in table.parameters.items()}
-    savemat(
-        path,
-        {**columns, "parameters": parameters},
-        appendmat=False,
-        long_field_names=True,
-        do_compression=True,
-        oned_as="column",
-    )
+    # An open file: of a path that cannot be written scipy says something else.
+    with path.open("wb") as file:
+        savemat(
+            file,
+            {**columns, "parameters": parameters},
+            long_field_names=True,
+            do_compression=True,
+            oned_as="column",
+        )
