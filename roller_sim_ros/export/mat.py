@@ -32,7 +32,7 @@ def write_mat(table: Table, path: Path) -> None:
     # An open file: of a path that cannot be written scipy says something else.
     with path.open("wb") as file:
         savemat(
-            file,
+            file,  # type: ignore[arg-type]  # scipy takes it, its stubs do not know
             {**columns, "parameters": parameters},
             long_field_names=True,
             do_compression=True,
