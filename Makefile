@@ -43,7 +43,8 @@ bench: setup
 
 docs: setup
 	@$(VENV)/python -m tools.generate_docs
-	@exec $(VENV)/python -m tools.generate_schema
+	@$(VENV)/python -m tools.generate_schema
+	@exec $(VENV)/python -m tools.generate_layouts
 
 clean:
 	rm -rf .venv build install log dist roller_sim_ros.egg-info .mypy_cache .pytest_cache .ruff_cache .hypothesis

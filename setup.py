@@ -35,6 +35,7 @@ setup(
         shared("srv", "*.srv"),
         shared("config", "*.yaml"),
         shared("launch", "*.launch.py"),
+        shared("layouts", "*.*"),
         shared("scenarios", "*.yaml"),
         shared("scenarios", "*.schema.json"),
     ],
