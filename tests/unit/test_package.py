@@ -64,6 +64,7 @@ LAYERS = (
     "emulation",
     "traces",
     "analysis",
+    "export",
     "offline",
     "sweep",
     "node",
