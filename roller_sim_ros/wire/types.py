@@ -17,6 +17,7 @@ from rosbags.typesys.store import Typestore
 
 from roller_sim_ros.errors import RollerSimError
 from roller_sim_ros.share import PACKAGE, share_directory
+from roller_sim_ros.wire.packing import Packer
 
 # The oldest ROS 2 that the package supports; the types that it uses have not changed since.
 BASE = Stores.ROS2_HUMBLE
@@ -79,7 +80,18 @@ def message_class(type_name: str) -> Any:
 
 def encode(message: object, type_name: str) -> bytes:
     """Return a message object as little-endian CDR with its four header bytes."""
+    pack = _packer(type_name)
+    if pack is not None:
+        return pack(message)
     return bytes(typestore().serialize_cdr(message, type_name, little_endian=True))
+
+
+@cache
+def _packer(type_name: str) -> Packer | None:
+    try:
+        return Packer(type_name, typestore().fielddefs)
+    except ValueError:
+        return None
 
 
 def decode(data: bytes, type_name: str) -> Any:
