@@ -33,6 +33,11 @@ def shown(value: object) -> str:
     return text if len(text) <= _LONGEST_SHOWN else f"{text[:_LONGEST_SHOWN]}…"
 
 
+def shown_name(name: str) -> str:
+    """Return a name as a message shows it: as it is, unless it is one that no parameter can have."""
+    return name if name.isprintable() and 0 < len(name) <= _LONGEST_SHOWN else shown(name)
+
+
 class ParameterError(RollerSimError):
     """A parameter has a value it cannot have.
 
@@ -47,7 +52,7 @@ class ParameterError(RollerSimError):
     """
 
     def __init__(self, name: str, value: object, reason: str) -> None:
-        super().__init__(f"{name} = {shown(value)}: {reason}")
+        super().__init__(f"{shown_name(name)} = {shown(value)}: {reason}")
         self.name = name
         self.value = value
         self.reason = reason

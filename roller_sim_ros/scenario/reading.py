@@ -10,7 +10,7 @@ from typing import Any
 from yaml.nodes import MappingNode, Node, ScalarNode, SequenceNode
 
 from roller_sim_ros.parameters import ParameterError
-from roller_sim_ros.parameters.quantity import shown
+from roller_sim_ros.parameters.quantity import shown, shown_name
 from roller_sim_ros.scenario.build import configuration_of, programme_of, site_of
 from roller_sim_ros.scenario.catalogue import check_instruments
 from roller_sim_ros.scenario.nodes import (
@@ -209,7 +209,7 @@ class _Reader:
 def _told(name: str, error: ParameterError) -> str:
     """Return the error under the name that the file has for it; of a missing value only the reason."""
     value = "" if error.value is None else f" = {shown(error.value)}"
-    return f"{name}{value}: {error.reason}"
+    return f"{shown_name(name)}{value}: {error.reason}"
 
 
 def _near(key: str, known: Collection[str]) -> str:

@@ -26,6 +26,7 @@ from roller_sim_ros.traces.errors import Problem, TraceError, writing_error
 from roller_sim_ros.traces.frames import Damage
 from roller_sim_ros.traces.metadata import RUN
 from roller_sim_ros.traces.records import RawMessage, Record, TraceRecords
+from roller_sim_ros.traces.writer import PROFILE
 from roller_sim_ros.wire.types import decode
 
 _COUNTING_SAMPLES = ("roller_sim_ros/msg/DrumAcceleration", "roller_sim_ros/msg/DrumSoilState")
@@ -260,13 +261,16 @@ class _Copy:
         self._writer = Writer(stream)
         self._table = table
         self._channels: dict[int, int] = {}
+        self._begun = False
 
     def write(self, record: Record) -> None:
         writer = self._writer
-        if isinstance(record, Header):
-            writer.start(profile=record.profile)
+        if not self._begun:
+            # The header stands first, unless it is what was damaged.
+            writer.start(profile=record.profile if isinstance(record, Header) else PROFILE)
             self._register()
-        elif isinstance(record, RawMessage):
+            self._begun = True
+        if isinstance(record, RawMessage):
             writer.add_message(
                 self._channels[record.channel_id],
                 record.log_time_ns,

@@ -37,6 +37,14 @@ def test_a_long_value_is_shown_shortened() -> None:
     assert "\n" not in str(refusal.value)
 
 
+@pytest.mark.parametrize("name", ["", "a\nb", "x" * 1000])
+def test_a_name_that_no_parameter_can_have_is_shown_in_one_line(name: str) -> None:
+    with pytest.raises(ParameterError, match="^'.* = 1.0: there is no such parameter") as refusal:
+        Configuration().changed({name: 1.0})
+    assert "\n" not in str(refusal.value)
+    assert len(str(refusal.value)) < 300
+
+
 @pytest.mark.parametrize(
     ("text", "words"),
     [

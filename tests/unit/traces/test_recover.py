@@ -139,6 +139,15 @@ def test_damaged_chunk_is_left_out_and_its_samples_are_named(record) -> None:
     assert account.topics["/truth"].missing_messages == 0
 
 
+def test_damaged_header_costs_no_message(record) -> None:
+    recording = record()
+    content = bytearray(recording.path.read_bytes())
+    content[8] = 0x81  # the kind of the first record
+    recording.path.write_bytes(bytes(content[:-40]))
+    account = recover(recording.path)
+    assert read_by_others(account.target) == plain(recording.written)
+
+
 def test_topic_that_is_named_in_a_damaged_chunk_is_known_by_the_summary(foreign, tmp_path) -> None:
     whole = foreign["zstd"]
     with whole.path.open("rb") as stream:
