@@ -5,9 +5,11 @@ from __future__ import annotations
 import threading
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
+from typing import Any
 
+from roller_sim_ros.emulation.inputs import Input, InputKind
 from roller_sim_ros.emulation.instruments import Instruments
-from roller_sim_ros.faults import Scheduled, Span
+from roller_sim_ros.faults import Scheduled, Span, make_fault
 from roller_sim_ros.meters import CompactionMeter, MeterValue, TruthMeter, TruthValue
 from roller_sim_ros.meters.drum import Drum
 from roller_sim_ros.parameters import SAMPLES_PER_REVOLUTION, Configuration, ParameterError, Value
@@ -52,6 +54,9 @@ class Emulator:
         Faults and when they are active.
     seed : int
         Of all random numbers of sensors and faults.
+    scenario : str
+        Text of the scenario file that site, programme and faults are made from, for ``inputs``; a run with such parts
+        and without it cannot be replayed.
 
     Attributes
     ----------
@@ -75,7 +80,7 @@ class Emulator:
     --------
     >>> emulator = Emulator(Configuration(), start_ns=0)
     >>> [message.topic for message in emulator.advance(16)]
-    ['drum/acceleration', 'truth', 'faults', 'exciter/state', 'machine', 'soil']
+    ['inputs', 'drum/acceleration', 'truth', 'faults', 'exciter/state', 'machine', 'soil']
     >>> [message.topic for message in emulator.advance(16)]
     ['drum/acceleration', 'truth']
     """
@@ -91,6 +96,7 @@ class Emulator:
         sensors: Sequence[Choice] = (),
         faults: Sequence[Scheduled] = (),
         seed: int = 0,
+        scenario: str = "",
     ) -> None:
         samples = configuration.sampling.samples_per_revolution
         if samples != SAMPLES_PER_REVOLUTION:
@@ -124,6 +130,18 @@ class Emulator:
         self._configuration_told: Configuration | None = None
         self._facts: dict[str, bytes] = {}
         self._lock = threading.Lock()
+        parts = {"site": site, "programme": programme, "faults": faults}
+        self._inputs: list[Input] = []
+        self._note(
+            InputKind.BEGIN,
+            start_ns=start_ns,
+            run_up=run_up,
+            seed=seed,
+            parameters=configuration.flat(),
+            sensors=[[choice.name, dict(choice.parameters)] for choice in sensors],
+            scenario=scenario,
+            parts=[name for name, part in parts.items() if part and not scenario],
+        )
 
     @property
     def truth_value(self) -> TruthValue:
@@ -138,10 +156,10 @@ class Emulator:
     def advance(self, samples: int) -> list[Message]:
         """Step over the next samples and return what is to be published, in that order.
 
-        ``drum/acceleration``, as it arrives, and ``truth``; where a revolution ends ``meter``, ``cmv``, ``meters/…``
-        and ``site/state``; where one begins ``applied`` for all that took effect; ``tacho``, ``odom`` and ``fix``
-        where such sensors are chosen; ``exciter/state`` on change and 10 times a simulated second; ``faults``,
-        ``machine`` and ``soil`` at the start and on change.
+        ``inputs`` where something came in; ``drum/acceleration``, as it arrives, and ``truth``; where a revolution
+        ends ``meter``, ``cmv``, ``meters/…`` and ``site/state``; where one begins ``applied`` for all that took
+        effect; ``tacho``, ``odom`` and ``fix`` where such sensors are chosen; ``exciter/state`` on change and 10 times
+        a simulated second; ``faults``, ``machine`` and ``soil`` at the start and on change.
 
         Parameters
         ----------
@@ -157,12 +175,13 @@ class Emulator:
             block = self.session.advance(samples)
             self.block, self._readings = block, self.instruments.read(block)
             truth = self._truth.feed(block)
-            out = [messages.drum_acceleration(it, self.start_ns) for it in self._readings]
+            stamp_ns = messages.sample_stamp(block, 0, self.start_ns)
+            out = self._taken_inputs(stamp_ns)
+            out += [messages.drum_acceleration(it, self.start_ns) for it in self._readings]
             out.append(messages.drum_soil_state(block, truth, self.start_ns))
             for reading in self._readings:
                 self._add_meter(out, reading)
             begins = block.first_sample % SAMPLES_PER_REVOLUTION == 0
-            stamp_ns = messages.sample_stamp(block, 0, self.start_ns)
             if (block.first_sample + len(block)) % SAMPLES_PER_REVOLUTION == 0:
                 out.append(self._site_state(block, truth))
             if begins:
@@ -193,6 +212,12 @@ class Emulator:
                 self.session.command_exciter(
                     vibrate=vibrate, frequency_hz=frequency_hz, amplitude_m=amplitude_m
                 )
+                self._note(
+                    InputKind.COMMAND,
+                    vibrate=bool(vibrate),
+                    frequency_hz=float(frequency_hz),
+                    amplitude_m=float(amplitude_m),
+                )
                 self._refusal_told &= self._refusal[0] is Refusal.NONE
                 self._refusal = (Refusal.NONE, "")
         except CommandRefused as error:
@@ -210,11 +235,13 @@ class Emulator:
         with self._lock:
             if not self.instruments.faults.link_frozen:
                 self.session.command_travel(speed_m_s)
+                self._note(InputKind.TRAVEL, speed_m_s=float(speed_m_s))
 
     def release(self) -> None:
         """Hand exciter and travel back to the scenario; without one the roller stops travelling."""
         with self._lock:
             self.session.release()
+            self._note(InputKind.RELEASE)
 
     def change(self, values: Mapping[str, Value]) -> None:
         """Change live parameters; takes effect at the next multiple of 128 samples.
@@ -230,7 +257,8 @@ class Emulator:
             If a name is unknown, a parameter is not live, or a value is refused.
         """
         with self._lock:
-            self.session.change(values)
+            taken = self.session.change(values)
+            self._note(InputKind.CHANGE, values=taken)
 
     def inject(
         self,
@@ -258,7 +286,14 @@ class Emulator:
             If a parameter is unknown or its value refused.
         """
         with self._lock:
-            return self.instruments.faults.inject(fault_id, parameters, span)
+            handle = self.instruments.faults.inject(fault_id, parameters, span)
+            self._note(
+                InputKind.INJECT,
+                fault_id=fault_id,
+                parameters=dict(vars(make_fault(fault_id, parameters))),
+                span=dict(vars(span or Span())),
+            )
+            return handle
 
     def clear(self, handle: int | None = None) -> None:
         """End a fault at the next multiple of 128 samples, a scheduled one for good.
@@ -278,6 +313,7 @@ class Emulator:
                 self.instruments.faults.clear_all()
             else:
                 self.instruments.faults.clear(handle)
+            self._note(InputKind.CLEAR, handle=handle)
 
     @contextmanager
     def held(self) -> Iterator[None]:
@@ -298,6 +334,29 @@ class Emulator:
         with self._lock:
             self._refusal = (code, reason)
             self._refusal_told = False
+            self._note(InputKind.REFUSE, code=int(code), reason=reason)
+
+    def note_restored(self, state: bytes) -> None:
+        """Let ``inputs`` say that the run goes on from a saved state, so that a trace from here on can be replayed.
+
+        Parameters
+        ----------
+        state : bytes
+            As it was saved.
+        """
+        with self._lock:
+            # What came in just before the state was saved has had its effect on it.
+            self._inputs = [Input(self.session.next_sample, InputKind.RESTORE, state=state)]
+
+    def _note(self, kind: InputKind, **arguments: Any) -> None:
+        self._inputs.append(Input(self.session.next_sample, kind, arguments))
+
+    def _taken_inputs(self, stamp_ns: int) -> list[Message]:
+        taken, self._inputs = self._inputs, []
+        return [
+            messages.run_input(it.sample, it.kind.value, it.text, it.state, stamp_ns)
+            for it in taken
+        ]
 
     def _add_meter(self, out: list[Message], reading: Reading) -> None:
         for value in self._meter.feed(

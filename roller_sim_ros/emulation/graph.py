@@ -276,7 +276,7 @@ class _Reader:
 
 def _attributes(item: Any) -> dict[str, Any]:
     if hasattr(item, "__dict__"):
-        return vars(item)
+        return dict(vars(item))
     return {field.name: getattr(item, field.name) for field in dataclasses.fields(item)}
 
 

@@ -61,13 +61,16 @@ def save(emulator: Emulator) -> bytes:
     return MAGIC + json.dumps(header).encode() + b"\n" + body
 
 
-def restore(data: bytes) -> Emulator:
+def restore(data: bytes, *, told: bool = False) -> Emulator:
     """Return an emulator that goes on where `save` left it.
 
     Parameters
     ----------
     data : bytes
         As `save` returned it, in this or in another process. Nothing that it says is run, whoever wrote it.
+    told : bool
+        Let ``inputs`` say so, with the state, as a trace needs that goes on with it or begins with it. All other
+        messages are the same either way.
 
     Raises
     ------
@@ -82,6 +85,8 @@ def restore(data: bytes) -> Emulator:
         raise SnapshotError(f"the saved state is damaged: {error}") from None
     if not isinstance(emulator, Emulator):
         raise SnapshotError("the saved state is damaged: it is not that of an emulator")
+    if told:
+        emulator.note_restored(data)
     return emulator
 
 

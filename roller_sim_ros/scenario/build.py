@@ -25,6 +25,7 @@ _ELSEWHERE = (
     "exciter.frequency_hz",
     "exciter.amplitude_m",
     "recording.",
+    "scenario.",
 )
 """How parameters begin that a scenario says in sections of their own, or leaves to the run."""
 
@@ -102,6 +103,7 @@ class Start(NamedTuple):
     sensors: tuple[Choice, ...]
     faults: tuple[Scheduled, ...]
     seed: int
+    scenario: str = ""
 
     def session(self) -> Session:
         """Return a session, without sensors and faults."""
@@ -126,6 +128,7 @@ def start_of(scenario: Scenario) -> Start:
         sensors_of(scenario),
         faults_of(scenario),
         scenario.seed,
+        scenario.text,
     )
 
 

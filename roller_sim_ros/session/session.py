@@ -107,6 +107,11 @@ class Session:
         )
 
     @property
+    def upcoming(self) -> Configuration:
+        """The configuration with what waits for the next multiple of 128 samples."""
+        return self.configuration.changed(self._pending) if self._pending else self.configuration
+
+    @property
     def samples_per_revolution(self) -> int:
         """Samples between the points at which commands and changes take effect."""
         return self._samples
@@ -154,13 +159,18 @@ class Session:
                 self._pending.pop(name, None)
         self.masters.release()
 
-    def change(self, values: Mapping[str, Value]) -> None:
+    def change(self, values: Mapping[str, Value]) -> dict[str, Value]:
         """Change live parameters; takes effect at the next multiple of 128 samples.
 
         Parameters
         ----------
         values : mapping
             {dotted name: SI value}. All are taken or none.
+
+        Returns
+        -------
+        dict
+            The values as they were taken, of their declared types.
 
         Raises
         ------
@@ -174,9 +184,11 @@ class Session:
             if name in self.site.decides:
                 raise ParameterError(name, value, "is what the scenario's ground makes it")
         checked = self.configuration.changed({**self._pending, **values}).flat()
-        self._pending.update({name: checked[name] for name in values})
+        taken = {name: checked[name] for name in values}
+        self._pending.update(taken)
         if any(name in _COMMAND_PARAMETERS for name in values):
             self.masters.command_exciter()
+        return taken
 
     def applied(self) -> list[Applied]:
         """Return what took effect since the last call, in the order of effect."""

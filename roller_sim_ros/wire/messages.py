@@ -256,6 +256,19 @@ def applied_change(change: Applied, stamp_ns: int) -> Message:
     )
 
 
+def run_input(sample: int, kind: str, arguments: str, state: bytes, stamp_ns: int) -> Message:
+    """Return ``inputs``: what came into the run before a sample; the stamp is that sample's."""
+    return _message(
+        topics.INPUTS,
+        stamp_ns,
+        _header(stamp_ns, frame=""),
+        sample,
+        kind,
+        arguments,
+        np.frombuffer(state, dtype=np.uint8),
+    )
+
+
 def site_state(
     block: Block,
     position: Position,
@@ -305,14 +318,19 @@ def diagnostic_array(entries: Iterable[Diagnostic], stamp_ns: int) -> Message:
 
 
 def machine_facts(configuration: Configuration, stamp_ns: int) -> Message:
-    """Return ``machine``: every parameter of machine, exciter, sampling and meter."""
-    groups = ("machine", "exciter", "sampling", "meter")
+    """Return ``machine``: every parameter of machine, exciter, travel, sampling and meter."""
+    groups = ("machine", "exciter", "travel", "sampling", "meter")
     return _facts(topics.MACHINE, groups, configuration, stamp_ns)
 
 
 def soil_facts(configuration: Configuration, stamp_ns: int) -> Message:
     """Return ``soil``: every parameter of the soil and of the half space's model."""
     return _facts(topics.SOIL, ("soil", "half_space"), configuration, stamp_ns)
+
+
+def clock(time_ns: int) -> Message:
+    """Return ``/clock``."""
+    return _message(topics.CLOCK, time_ns, _time(time_ns))
 
 
 def parameter_event(node: str, values: Mapping[str, Value], stamp_ns: int) -> Message:

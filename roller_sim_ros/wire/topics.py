@@ -62,6 +62,8 @@ class Topic:
         How often it comes, for the README's table.
     durability : str
         ``volatile`` or ``transient_local``. All topics are reliable, which best-effort readers match too.
+    of_simulated_time : bool
+        Whether it is there in simulated time only.
     """
 
     name: str
@@ -71,6 +73,7 @@ class Topic:
     depth: Depth
     rate: str
     durability: str = "volatile"
+    of_simulated_time: bool = False
 
     def qos(self, pacing: Pacing) -> Qos:
         """Return the quality of service at a pacing."""
@@ -152,6 +155,14 @@ APPLIED = Topic(
     _fixed(100),
     "on change",
 )
+INPUTS = Topic(
+    "inputs",
+    "roller_sim_ros/msg/RunInput",
+    Direction.PUBLISHED,
+    "all that comes into the run from outside, at its sample: what `roller-sim replay` computes the run from again",
+    _fixed(100),
+    "at start and as it comes",
+)
 SITE_STATE = Topic(
     "site/state",
     "roller_sim_ros/msg/SiteState",
@@ -219,11 +230,28 @@ DIAGNOSTICS = Topic(
     _fixed(10),
     "1 Hz",
 )
+CLOCK = Topic(
+    "/clock",
+    "rosgraph_msgs/msg/Clock",
+    Direction.PUBLISHED,
+    "in simulated time only: the time up to which all is simulated, from 0 on; before the messages of its block",
+    _fixed(10),
+    "per block",
+    of_simulated_time=True,
+)
 EXCITER_COMMAND = Topic(
     "exciter/command",
     "roller_sim_ros/msg/ExciterCommand",
     Direction.SUBSCRIBED,
     "what the exciter is to do: vibrate, Hz, m",
+    _fixed(10),
+    "by the controller",
+)
+CMD_VEL = Topic(
+    "cmd_vel",
+    "geometry_msgs/msg/Twist",
+    Direction.SUBSCRIBED,
+    "travel speed: linear.x, m/s, forward positive; the rest is not looked at",
     _fixed(10),
     "by the controller",
 )
@@ -245,6 +273,7 @@ TOPICS: tuple[Topic, ...] = (
     EXCITER_STATE,
     TRUTH,
     APPLIED,
+    INPUTS,
     SITE_STATE,
     TACHO,
     ODOMETRY,
@@ -253,7 +282,9 @@ TOPICS: tuple[Topic, ...] = (
     MACHINE,
     SOIL,
     DIAGNOSTICS,
+    CLOCK,
     EXCITER_COMMAND,
+    CMD_VEL,
     PARAMETER_EVENTS,
 )
 """All topics, in the order of the README's table."""

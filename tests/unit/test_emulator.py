@@ -49,12 +49,14 @@ def stamp_ns(message: Any) -> int:
 
 def test_messages_come_in_their_order() -> None:
     roller = emulator()
-    assert topics(roller.advance(64)) == [*BLOCKS, "faults", "exciter/state", "machine", "soil"]
+    assert topics(roller.advance(64)) == [
+        *("inputs", *BLOCKS, "faults", "exciter/state", "machine", "soil")
+    ]
     assert topics(roller.advance(64)) == [*BLOCKS, *METERS, "site/state"]
     roller.command(vibrate=True, frequency_hz=28.0, amplitude_m=1.5e-3)
     roller.change({"soil.shear_modulus_pa": 80e6})
     assert topics(roller.advance(128)) == [
-        *BLOCKS,
+        *("inputs", "inputs", *BLOCKS),
         *(*METERS, "site/state", "applied", "applied", "exciter/state", "machine", "soil"),
     ]
 
@@ -239,7 +241,7 @@ def test_a_bad_block_size_leaves_the_emulator_as_it_was(samples: int) -> None:
     with pytest.raises(RollerSimError, match=rf"advance\({samples}\)"):
         roller.advance(samples)
     assert roller.block is None
-    assert topics(roller.advance(128))[:2] == BLOCKS
+    assert topics(roller.advance(128))[:3] == ["inputs", *BLOCKS]
 
 
 def test_another_number_of_samples_per_revolution_is_refused() -> None:
