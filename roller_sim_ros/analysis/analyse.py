@@ -226,6 +226,7 @@ class _Pass:
             piece.phase_rad,
             piece.phase_increment_rad,
             self._amplitude_m,
+            piece.clipped,
         ):
             self._on_value(value, piece)
 
@@ -233,7 +234,7 @@ class _Pass:
         time_s = (piece.stamp_of(value.last_sample) - self.result.start_ns) / NANOSECONDS
         row = self.result.history.append(value, time_s)
         self._last = value
-        if value.status is Status.NONE:
+        if value.status in (Status.NONE, Status.CLIPPED):
             self._clean += 1
             revolutions = self.result.window_revolutions + self._clean - 1
             self._kept.settled(value.last_sample, revolutions, value.excitation_frequency)

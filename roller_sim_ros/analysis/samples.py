@@ -41,6 +41,8 @@ class Piece:
         m/s².
     specific_force : bool
         Whether the vertical acceleration contains gravity.
+    clipped : int
+        How many readings, both axes together, the sensor clipped; 0 where a bag does not say.
     """
 
     first_sample: int
@@ -52,6 +54,7 @@ class Piece:
     vertical: NDArray[np.float32]
     horizontal: NDArray[np.float32]
     specific_force: bool
+    clipped: int = 0
 
     def __len__(self) -> int:
         """Return the number of samples."""
@@ -91,6 +94,7 @@ class AccelerationReader:
                 vertical=np.asarray(message.vertical, dtype=np.float32),
                 horizontal=np.asarray(message.horizontal, dtype=np.float32),
                 specific_force=message.kind == SPECIFIC_FORCE,
+                clipped=int(message.clipped),
             )
         except AttributeError as error:
             raise BagError(

@@ -367,6 +367,7 @@ class Emulator:
             reading.eccentric_phase_rad,
             reading.phase_increment_rad,
             self.session.exciter_status().amplitude_m,
+            int(reading.clipped.sum()),
         ):
             self.meter_value = value
             index = value.last_sample - reading.first_sample

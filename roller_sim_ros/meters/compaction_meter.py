@@ -136,6 +136,7 @@ class CompactionMeter:
         self._samples_per_revolution = samples_per_revolution
         self._phase_rad = 0.0
         self._gap = False
+        self._clipped_before = 0
 
     def feed(
         self,
@@ -146,6 +147,7 @@ class CompactionMeter:
         eccentric_phase_rad: float,
         phase_increment_rad: float,
         amplitude_m: float = math.nan,
+        clipped: int = 0,
     ) -> list[MeterValue]:
         """Take one block as published and return the values of the revolutions that it completes.
 
@@ -163,6 +165,9 @@ class CompactionMeter:
             Phase from sample to sample.
         amplitude_m : float
             Nominal amplitude of the exciter, m; NaN when unknown.
+        clipped : int
+            How many readings of the block, both axes together, the sensor clipped; all of its revolution counts
+            as clipped then.
         """
         self._amplitude_m = amplitude_m
         timing = Timing(sample_period_s, excitation_hz, phase_increment_rad)
@@ -173,11 +178,16 @@ class CompactionMeter:
             if isinstance(item, Loss):
                 self._clear()
                 self._gap = True
+                self._clipped_before = 0
             else:
-                values.append(self._value(item))
+                values.append(self._value(item, clipped=clipped > 0))
+        if clipped:
+            # Also where the block completes no revolution: to the end of the one that it is of.
+            end = first_sample + len(vertical)
+            self._clipped_before = end + -end % self._samples_per_revolution
         return values
 
-    def _value(self, revolution: Revolution) -> MeterValue:
+    def _value(self, revolution: Revolution, *, clipped: bool) -> MeterValue:
         if not np.isfinite(revolution.samples).all():
             self._clear()
             self._gap = True
@@ -186,6 +196,8 @@ class CompactionMeter:
         else:
             self._clear()
         last_sample = revolution.first_sample + self._samples_per_revolution - 1
+        if clipped:
+            self._clipped_before = last_sample + 1
         if not self._harmonics.full:
             standing = revolution.excitation_hz <= 0.0
             status = Status.STANDING if standing else Status.WINDOW_FILLING
@@ -200,6 +212,9 @@ class CompactionMeter:
         status = Status.NONE
         if not _steady(self._frequencies):
             status |= Status.FREQUENCY_CHANGING
+        first_sample = last_sample + 1 - self.window_revolutions * self._samples_per_revolution
+        if self._clipped_before > first_sample:
+            status |= Status.CLIPPED
         harmonics = self._harmonics.harmonics()
         amplitude = harmonics.amplitude(1.0)
         if amplitude == 0.0 or amplitude < self.noise_floor_m_s2:

@@ -19,6 +19,8 @@ class Status(IntFlag):
     """The window holds revolutions of different frequencies; the values are computed all the same."""
     GAP = 16
     """Samples were lost so recently that the window had to begin anew and is not full yet."""
+    CLIPPED = 32
+    """The window holds samples at the end of the sensor's range; the values are computed all the same."""
 
     @property
     def label(self) -> str:

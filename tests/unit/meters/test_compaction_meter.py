@@ -232,6 +232,27 @@ def test_frequency_change_is_said_while_it_is_in_the_window() -> None:
     assert statuses[3:] == [0, 0, 0] + [Status.FREQUENCY_CHANGING] * 3 + [0, 0, 0]
 
 
+@pytest.mark.parametrize("size", [16, 48, 128])
+def test_clipped_samples_are_said_while_they_are_in_the_window(size: int) -> None:
+    samples = np.tile(np.sin(np.arange(N) * STEP), 10)
+    meter, statuses = CompactionMeter(4), []
+    for first, piece in blocks(samples, size=size):
+        # One sample in the middle of the revolution before the last of the first window.
+        clipped = int(first <= 2 * N + 60 < first + len(piece))
+        values = meter.feed(first, piece, PERIOD_S, 28.0, first % N * STEP, STEP, clipped=clipped)
+        statuses += [value.status for value in values]
+        assert all(math.isfinite(value.cmv) for value in values if value.last_sample >= 4 * N - 1)
+    assert statuses[3:] == [Status.CLIPPED] * 3 + [Status.NONE] * 4
+
+
+def test_a_stream_that_begins_anew_has_no_part_in_what_was_clipped_before() -> None:
+    samples = np.tile(np.sin(np.arange(N) * STEP), 4)
+    meter = CompactionMeter(2)
+    for first, piece in blocks(samples, first=40 * N):
+        meter.feed(first, piece, PERIOD_S, 28.0, first % N * STEP, STEP, clipped=1)
+    assert feed(meter, blocks(samples))[-1].status is Status.NONE
+
+
 def test_below_the_noise_floor_the_amplitude_is_known_and_the_rest_is_not() -> None:
     quiet = 0.04 * np.sin(np.arange(4 * N) * STEP)
     value = feed(CompactionMeter(4, 0.05), blocks(quiet))[-1]
