@@ -1,4 +1,4 @@
-# make setup | sim | test | check | bench | docs | clean
+# make setup | sim | test | check | bench | fuzz | docs | clean
 #
 # Everything goes into .venv and build; nothing needs sourcing.
 
@@ -18,7 +18,7 @@ ifdef ROS_DISTRO
 unexport LD_LIBRARY_PATH
 endif
 
-.PHONY: setup sim test check bench docs clean
+.PHONY: setup sim test check bench fuzz docs clean
 
 setup:
 	@tools/setup.sh
@@ -40,6 +40,11 @@ check: setup
 
 bench: setup
 	@exec $(VENV)/python -m benchmarks $(ARGS)
+
+# Hostile input, 100 000 items and atheris for five minutes each: make fuzz ARGS=--write puts what came of it into docs.
+fuzz: setup
+	@$(VENV)/python -m pip install --disable-pip-version-check -q -r requirements/fuzz.txt
+	@exec $(VENV)/python -m fuzz --coverage-guided 300 $(ARGS)
 
 docs: setup
 	@$(VENV)/python -m tools.generate_docs

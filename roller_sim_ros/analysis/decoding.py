@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from textwrap import shorten
 from typing import Any
 
 from rosbags.typesys import (
@@ -47,9 +48,9 @@ class Decoder:
                 text = part if part is definition else part.partition("\n")[2]
                 self._store.register(get_types_from_idl(text))
         except (TypesysError, ValueError, KeyError) as error:
-            raise BagError(
-                f"the definition of {name} in the bag cannot be parsed: {error}"
-            ) from None
+            # The parser's reason holds all the text that it did not understand.
+            reason = shorten(f"the definition of {name} in the bag cannot be parsed: {error}", 300)
+            raise BagError(reason) from None
 
     def add_installed(self, name: str) -> None:
         """Add a type that a bag holds without definition, as SQLite bags before ROS 2 Iron do.

@@ -6,6 +6,8 @@ from pathlib import Path
 
 import pytest
 
+from roller_sim_ros.analysis.bag import BagError
+from roller_sim_ros.analysis.decoding import Decoder
 from roller_sim_ros.parameters import Configuration, ParameterError
 from roller_sim_ros.parameters.file import ParameterFileError, read_parameters
 from roller_sim_ros.site import Lane
@@ -65,3 +67,12 @@ def test_parameter_file(tmp_path: Path, text: str, words: str) -> None:
     assert str(refusal.value).startswith(f"{path}: ")
     assert words in str(refusal.value)
     assert "\n" not in str(refusal.value)
+
+
+def test_definition_that_cannot_be_parsed_is_told_in_one_line() -> None:
+    with pytest.raises(
+        BagError, match="^the definition of a/msg/B in the bag cannot be parsed: "
+    ) as refusal:
+        Decoder().add("a/msg/B", "MSG: a\nno field\n" * 100)
+    assert "\n" not in str(refusal.value)
+    assert len(str(refusal.value)) <= 300
