@@ -1,4 +1,4 @@
-"""``roller-sim sim``: the roller in real time as a ROS 2 node."""
+"""``roller-sim sim``: the roller as a ROS 2 node, in real time or in time of its own."""
 
 from __future__ import annotations
 
@@ -11,13 +11,15 @@ from pathlib import Path
 from roller_sim_ros.commands.flags import add_parameter_flags, given_values
 from roller_sim_ros.errors import RollerSimError
 from roller_sim_ros.node.signals import handled
+from roller_sim_ros.parameters import PARAMETERS, Value
 from roller_sim_ros.parameters.file import read_parameters
 
 ROS_LEVEL = "ros__parameters"
 
 DESCRIPTION = """\
-Run the roller in real time as the ROS 2 node roller_sim: it vibrates, publishes acceleration, meter
-values and the truth, and obeys exciter/command. One status line a second until Ctrl-C.
+Run the roller as the ROS 2 node roller_sim: it vibrates, drives what a scenario plans, publishes
+acceleration, meter values and the truth, and obeys exciter/command and cmd_vel; in real time, in
+simulated time, or step by step. One status line a second until Ctrl-C.
 """
 
 EPILOG = """\
@@ -26,6 +28,8 @@ everywhere; other parameters are set there by their dotted names.
 
 example:
   roller-sim sim --frequency-hz 30 --shear-modulus-mpa 80 --record trace.mcap --namespace roller_1
+  roller-sim sim --scenario soft_to_stiff --clock sim --speed 10 --record trace.mcap --exit-at-end
+  roller-sim sim --scenario site.yaml --lock-step
   roller-sim sim --ros-args -p pacing.samples_per_message:=32 -r drum/acceleration:=acc
 """
 
@@ -41,7 +45,8 @@ def main(argv: list[str] | None = None) -> int:
     Returns
     -------
     int
-        0 after Ctrl-C or SIGTERM, also while it starts; 1 when the node could not start.
+        0 after Ctrl-C or SIGTERM, also while it starts, and at the end that was asked for; 1 when the node could not
+        start.
 
     Raises
     ------
@@ -51,6 +56,7 @@ def main(argv: list[str] | None = None) -> int:
     own, ros = _split(sys.argv[1:] if argv is None else argv)
     arguments = _parser().parse_args(own)
     overrides = given_values(arguments)
+    overrides.update(_time_and_scenario(arguments))
     if arguments.record_topic:
         overrides["recording.topics"] = ",".join(arguments.record_topic)
     if arguments.params is not None:
@@ -68,12 +74,28 @@ def main(argv: list[str] | None = None) -> int:
                 signals,
                 namespace=arguments.namespace,
                 overrides=overrides,
+                exit_at_end=arguments.exit_at_end,
                 on_report=lambda report: print(status_line(report), flush=True),
                 on_end=lambda roller: print(summary(roller), flush=True),
             )
         except KeyboardInterrupt:
             print("stopped before the roller ran", flush=True)
             return 0
+
+
+def _time_and_scenario(arguments: argparse.Namespace) -> dict[str, Value]:
+    """Return {dotted name: value} of what flags say of time and scenario."""
+    given: dict[str, Value | None] = {
+        "scenario.path": arguments.scenario,
+        "pacing.clock": arguments.clock,
+        "pacing.speed": arguments.speed,
+        "pacing.lock_step": arguments.lock_step or None,
+    }
+    return {name: value for name, value in given.items() if value is not None}
+
+
+def _doc(name: str) -> str:
+    return PARAMETERS[name][0].doc
 
 
 def _split(arguments: list[str]) -> tuple[list[str], list[str]]:
@@ -124,6 +146,21 @@ def _parser() -> argparse.ArgumentParser:
         help="parameters, plainly nested or in the form that ROS 2 reads; some are installed under "
         "share/roller_sim_ros/config",
     )
+    parser.add_argument(
+        "--scenario",
+        metavar="SCENARIO",
+        help="scenario file, or the name of one that the package brings, as in soft_to_stiff: it says roller, ground, "
+        "lane, programme, sensors, faults and seed",
+    )
+    parser.add_argument(
+        "--exit-at-end",
+        action="store_true",
+        help="end with 0 when all that the scenario plans has been driven; else the roller stands then, and goes on "
+        "publishing",
+    )
+    parser.add_argument("--clock", metavar="real|sim", help=_doc("pacing.clock"))
+    parser.add_argument("--speed", type=float, metavar="X", help=_doc("pacing.speed"))
+    parser.add_argument("--lock-step", action="store_true", help=_doc("pacing.lock_step"))
     # The messages are for 128 samples per revolution.
     add_parameter_flags(parser, exclude=("sampling.samples_per_revolution",))
     parser.add_argument(

@@ -1,8 +1,9 @@
-"""Exciter commands as they come in: obeyed, refused, or missed by the watchdog."""
+"""Commands as they come in: obeyed, refused, or missed by a watchdog."""
 
 from __future__ import annotations
 
 import time
+from collections.abc import Callable
 
 from roller_sim_ros.parameters import Exciter
 from roller_sim_ros.session import ExciterCommand, Refusal
@@ -15,7 +16,12 @@ QUIET_S = 1.0
 
 
 class CommandInput:
-    """What came of the commands.
+    """What came of the commands to the exciter or to the travel.
+
+    Parameters
+    ----------
+    now_s : callable
+        The time by which silence is measured: real or simulated, s.
 
     Attributes
     ----------
@@ -27,17 +33,22 @@ class CommandInput:
         Whether that happened after the last accepted command.
     """
 
-    def __init__(self) -> None:
+    def __init__(self, now_s: Callable[[], float]) -> None:
         self.refused = 0
         self.reason = ""
         self.refusing = False
-        self._last_accepted = time.monotonic()
+        self._now_s = now_s
+        self._last_accepted_s = now_s()
         self._logged = ("", 0.0)
 
     def accepted(self) -> None:
         """Note an accepted command, by topic or by parameter."""
-        self._last_accepted = time.monotonic()
+        self._last_accepted_s = self._now_s()
         self.refusing = False
+
+    def alive(self) -> None:
+        """Note that what was commanded still holds, as if it were said again."""
+        self._last_accepted_s = self._now_s()
 
     def refuse(self, code: Refusal, reason: str) -> bool:
         """Note a refusal, or that the watchdog acted; return whether it is to be logged."""
@@ -50,10 +61,14 @@ class CommandInput:
         self._logged = (reason, now)
         return True
 
+    def silent_s(self) -> float:
+        """Return for how long no command came, s."""
+        return self._now_s() - self._last_accepted_s
+
     def overdue(self, exciter: Exciter) -> str:
         """Return what the watchdog says; empty while there is no need to act."""
         timeout_s = exciter.command_timeout_s
-        silent_s = time.monotonic() - self._last_accepted
+        silent_s = self.silent_s()
         if not exciter.vibrate or timeout_s <= 0.0 or silent_s <= timeout_s:
             return ""
         return (

@@ -4,17 +4,14 @@ from __future__ import annotations
 
 import threading
 import time
-from collections.abc import Callable
 
-from roller_sim_ros.emulation import Emulator
 from roller_sim_ros.node.lateness import Lateness
 from roller_sim_ros.node.realtime import precise_sleeps, request_realtime
-from roller_sim_ros.parameters import SAMPLES_PER_REVOLUTION
-from roller_sim_ros.wire.messages import Message
+from roller_sim_ros.node.run import Run
 
 
 class Pacer:
-    """Advances an emulator in real time, in a thread of its own.
+    """Drives a run at a speed, in a thread of its own; paused, it leaves the run to others.
 
     A block is computed ahead of its deadline and handed out at it: the start plus the time of the
     block's last sample, on the steady clock. Deadlines are absolute, so that a block that comes late shifts
@@ -22,19 +19,17 @@ class Pacer:
 
     Parameters
     ----------
-    emulator : Emulator
-        What is advanced.
-    samples : int
-        Samples per block, a divisor of 128.
-    send : callable
-        Takes the messages of a block.
-    imu_wanted : callable
-        Whether anyone listens to the per-sample messages; asked once a revolution.
+    run : Run
+        What is driven.
+    speed : float
+        Simulated over real time; 0: as fast as possible, without deadlines.
     priority : int
         Real-time priority to be tried; 0: none.
 
     Attributes
     ----------
+    run : Run
+        As given.
     lateness : Lateness
         How late the blocks were.
     realtime : list of str
@@ -43,70 +38,87 @@ class Pacer:
         What ended the thread unasked.
     """
 
-    def __init__(
-        self,
-        emulator: Emulator,
-        samples: int,
-        send: Callable[[list[Message]], None],
-        imu_wanted: Callable[[], bool],
-        priority: int = 0,
-    ) -> None:
-        self.emulator = emulator
+    def __init__(self, run: Run, speed: float = 1.0, priority: int = 0) -> None:
+        self.run = run
         self.lateness = Lateness()
         self.realtime: list[str] = []
         self.failure: Exception | None = None
-        self._samples = samples
-        self._send = send
-        self._imu_wanted = imu_wanted
+        self._speed = speed
         self._priority = priority
-        self._progress = (0.0, 0.0)
         self._stopping = threading.Event()
         self._started = threading.Event()
-        self._thread = threading.Thread(target=self._run, name="pacing", daemon=True)
+        self._playing = threading.Event()
+        self._parked = threading.Event()
+        self._thread = threading.Thread(target=self._main, name="pacing", daemon=True)
 
-    def start(self) -> None:
-        """Begin; the first sample's time is now."""
+    @property
+    def playing(self) -> bool:
+        """Whether time goes on by itself."""
+        return self._playing.is_set()
+
+    def start(self, *, paused: bool = False) -> None:
+        """Begin; the next sample's time is now."""
+        if not paused:
+            self._playing.set()
         self._thread.start()
         self._started.wait()
+
+    def play(self) -> None:
+        """Go on; the next sample's time is now."""
+        self._playing.set()
+
+    def pause(self) -> None:
+        """Wait until the block under way is out and the thread leaves the run alone."""
+        self._playing.clear()
+        self._parked.wait()
+
+    def stop_playing(self) -> None:
+        """Pause after the block under way, without waiting for it: for the thread itself."""
+        self._playing.clear()
 
     def stop(self) -> None:
         """End after the block under way."""
         self._stopping.set()
+        self._playing.set()
         self._thread.join()
 
-    @property
-    def progress(self) -> tuple[float, float]:
-        """Simulated time that is published, and when it was, both in s since the start."""
-        return self._progress
-
-    def _run(self) -> None:
+    def _main(self) -> None:
         precise_sleeps()
         self.realtime = request_realtime(self._priority)
         self._started.set()
         try:
-            self._pace()
+            while not self._stopping.is_set():
+                if not self._playing.is_set():
+                    self._parked.set()
+                    self._playing.wait()
+                    self._parked.clear()
+                elif self._speed > 0.0:
+                    self._keep_pace()
+                else:
+                    self._hurry()
         except Exception as error:  # noqa: BLE001 - the other thread reports it, whatever it is
             self.failure = error
+        finally:
+            self._parked.set()
 
-    def _pace(self) -> None:
-        emulator, samples, send, note = self.emulator, self._samples, self._send, self.lateness.note
-        monotonic, sleep, stopping = time.monotonic, time.sleep, self._stopping.is_set
-        imu = False
-        start = monotonic()
-        while not stopping():
-            messages = emulator.advance(samples)
-            block = emulator.block
-            assert block is not None  # there is one after every advance
-            if block.first_sample % SAMPLES_PER_REVOLUTION == 0:
-                imu = self._imu_wanted()
-            if imu:
-                messages += emulator.imu_messages()
+    def _keep_pace(self) -> None:
+        run, speed, note = self.run, self._speed, self.lateness.note
+        monotonic, sleep = time.monotonic, time.sleep
+        stopping, playing = self._stopping.is_set, self._playing.is_set
+        start, from_s = monotonic(), run.time_s
+        while playing() and not stopping():
+            block, messages = run.compute()
             period_s = block.sample_period_s
-            due_s = block.time_s + (samples - 1) * period_s
+            due_s = (block.time_s + (len(block) - 1) * period_s - from_s) / speed
             wait_s = start + due_s - monotonic()
             if wait_s > 0.0:
                 sleep(wait_s)
             now_s = monotonic() - start
-            send(messages)
-            note(now_s - due_s, samples * period_s)
-            self._progress = (due_s, now_s)
+            run.send(messages)
+            note(now_s - due_s, len(block) * period_s / speed)
+
+    def _hurry(self) -> None:
+        run, stopping, playing = self.run, self._stopping.is_set, self._playing.is_set
+        while playing() and not stopping():
+            _, messages = run.compute()
+            run.send(messages)

@@ -9,7 +9,8 @@ from rcl_interfaces.msg import FloatingPointRange, IntegerRange, ParameterDescri
 from rclpy.node import Node
 from rclpy.parameter import Parameter
 
-from roller_sim_ros.parameters import PARAMETERS, Configuration, ParameterError, Quantity, Value
+from roller_sim_ros.node.beginning import Beginning, beginning
+from roller_sim_ros.parameters import PARAMETERS, ParameterError, Quantity, Value
 from roller_sim_ros.parameters import lookup as lookup_parameter
 
 AUTOSTART = "autostart"
@@ -20,8 +21,8 @@ _OF_EVERY_NODE = ("use_sim_time", "start_type_description_service")
 _QOS = "qos_overrides."
 
 
-def declare(node: Node) -> Configuration:
-    """Declare all parameters and return the configuration with what was given for them.
+def declare(node: Node) -> Beginning:
+    """Declare all parameters and return what the runs begin with, from what was given for them.
 
     Parameters
     ----------
@@ -31,24 +32,22 @@ def declare(node: Node) -> Configuration:
 
     Raises
     ------
-    ParameterError
-        If a name is unknown or a value refused.
+    RollerSimError
+        If a name is unknown, a value refused, or the scenario cannot be read.
     """
     given = {name: item.value for name, item in node.get_parameters_by_prefix("").items()}
     for name, value in given.items():
         if name != AUTOSTART and name not in _OF_EVERY_NODE and not name.startswith(_QOS):
             lookup_parameter(name, value)
-    configuration = Configuration().changed(
-        {name: value for name, value in given.items() if name in PARAMETERS}
-    )
-    for name, value in configuration.flat().items():
+    begins = beginning({name: value for name, value in given.items() if name in PARAMETERS})
+    for name, value in begins.configuration.flat().items():
         _declare(node, name, value, _descriptor(*PARAMETERS[name]))
     autostart = given.get(AUTOSTART, True)
     if not isinstance(autostart, bool):
         raise ParameterError(AUTOSTART, autostart, "must be true or false")
     text = "whether the node configures and activates itself when it starts"
     _declare(node, AUTOSTART, autostart, ParameterDescriptor(description=text, read_only=True))
-    return configuration
+    return begins
 
 
 def floats_for_integers(parameters: list[Parameter[Any]]) -> list[Parameter[Any]]:

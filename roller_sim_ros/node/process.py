@@ -32,10 +32,11 @@ def run_node(
     *,
     namespace: str = "",
     overrides: Mapping[str, Value] | None = None,
+    exit_at_end: bool = False,
     on_report: Callable[[Report], None] | None = None,
     on_end: Callable[[Roller], None] | None = None,
 ) -> int:
-    """Run the node until SIGINT or SIGTERM.
+    """Run the node until SIGINT or SIGTERM, or until a client or the end of the scenario ends it.
 
     Parameters
     ----------
@@ -47,13 +48,15 @@ def run_node(
         Namespace of the node.
     overrides : mapping
         {dotted name: SI value} that hold whatever files and arguments say.
+    exit_at_end : bool
+        End where all that the scenario planned has been driven, with that sample.
     on_report, on_end : callable
         Called once a second while the node is configured, and when all is closed.
 
     Returns
     -------
     int
-        0 after a signal; 1 when the node could not start, which the log says.
+        0 after an orderly end; 1 when the node could not start, which the log says.
 
     Raises
     ------
@@ -67,8 +70,9 @@ def run_node(
     try:
         _initialise(ros_arguments)
         _check_namespace(namespace)
-        node = RollerNode(namespace=namespace, overrides=overrides)
+        node = RollerNode(namespace=namespace, overrides=overrides, stopping=lambda: signals.stop)
         node.on_report = on_report
+        node.roller.stop_at_end = exit_at_end
         if node.autostart and not _autostart(node):
             return 1
         signals.running = True
@@ -108,6 +112,9 @@ def _spin(node: RollerNode, signals: Signals) -> None:
     try:
         while not signals.stop:
             executor.spin_once(timeout_sec=SPIN_S)
+            if node.simulation.quitting or (node.roller.stop_at_end and node.roller.ended):
+                node.roller.wait_until_read()
+                break
             if node.roller.failure is not None:
                 raise RollerSimError(
                     f"the roller failed: {node.roller.failure!r}"

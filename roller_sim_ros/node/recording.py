@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Any
 
@@ -18,7 +18,6 @@ from roller_sim_ros.node.qos import profile, row
 from roller_sim_ros.node.report import RecordingReport
 from roller_sim_ros.parameters import Configuration
 from roller_sim_ros.parameters import Recording as RecordingParameters
-from roller_sim_ros.traces.metadata import run_metadata
 from roller_sim_ros.traces.recorder import Recorder
 from roller_sim_ros.traces.registration import register
 from roller_sim_ros.wire import topics
@@ -27,14 +26,29 @@ from roller_sim_ros.wire.qos import Qos
 DEPTH = 1000
 """Messages of others' topics that may wait for the executor."""
 
+PATIENCE_S = 30.0
+"""How long simulated time waits for a disk that is slow."""
+
 # Humble's rclpy does not tell a callback when its message was sent.
 _HAS_INFO = hasattr(rclpy.subscription, "MessageInfo")
 
 Receiver = Callable[..., None]
 
 
-def receiver(handle: Callable[[bytes, int, int], None]) -> Receiver:
-    """Return a callback for a raw subscription that calls `handle` with bytes, receive and publish time."""
+def receiver(
+    handle: Callable[[bytes, int, int], None], now_ns: Callable[[], int] | None = None
+) -> Receiver:
+    """Return a callback for a raw subscription that calls `handle` with bytes, receive and publish time.
+
+    Parameters
+    ----------
+    handle : callable
+        Takes them.
+    now_ns : callable, optional
+        The time that both are; those of the middleware when not given.
+    """
+    if now_ns is not None:
+        return lambda data, *_: handle(data, now_ns(), now_ns())
 
     def with_info(data: bytes, info: dict[str, Any]) -> None:
         now_ns = time.time_ns()
@@ -56,17 +70,29 @@ class Recording:
         The node.
     outlet : Outlet
         Its topics are registered, and it hands its bytes over from now on.
-    command_topic : str
-        Resolved name of the commands' topic.
+    commands : mapping
+        {resolved name: topic} of the commands that are handed over by `put_command`.
     configuration : Configuration
-        Goes into the trace as the run's parameters.
+        How it is recorded; in simulated time it waits for the disk rather than drop anything.
+    metadata : mapping
+        What the trace says of the run.
+    path : str
+        File to write.
+    now_ns : callable, optional
+        When what others send is received; the middleware's times when not given.
 
     Attributes
     ----------
+    parameters : RecordingParameters
+        What was asked for.
+    path : str
+        As given.
     problems : dict
         Topics of others that cannot be recorded, and why.
     awaited : list of str
         Topics of others that nobody publishes yet.
+    used : bool
+        Whether a run has begun since the recording did; for the owner to say.
 
     Raises
     ------
@@ -75,30 +101,36 @@ class Recording:
     """
 
     def __init__(
-        self, node: Node, outlet: Outlet, command_topic: str, configuration: Configuration
+        self,
+        node: Node,
+        outlet: Outlet,
+        commands: Mapping[str, topics.Topic],
+        configuration: Configuration,
+        metadata: Mapping[str, Mapping[str, str]],
+        path: str,
+        now_ns: Callable[[], int] | None = None,
     ) -> None:
         self.parameters: RecordingParameters = configuration.recording
+        self.path = path
         self.problems: dict[str, str] = {}
+        self.used = False
         self._node = node
         self._subscriptions: list[Subscription[Any]] = []
+        self._now_ns = now_ns
         self.trace = Recorder(
-            Path(self.parameters.path),
-            run_metadata(configuration, node.get_clock().now().nanoseconds),
+            Path(path),
+            metadata,
             flush_period_s=self.parameters.flush_period_s,
+            patience_s=PATIENCE_S if configuration.pacing.simulated_time else 0.0,
         )
-        self._commands = command_topic
         self.attach(outlet)
-        register(
-            self.trace,
-            command_topic,
-            topics.EXCITER_COMMAND.type_name,
-            topics.EXCITER_COMMAND.qos(configuration.pacing),
-        )
+        for name, topic in commands.items():
+            register(self.trace, name, topic.type_name, topic.qos(configuration.pacing))
         events = topics.PARAMETER_EVENTS
         self._record(events.name, events.type_name, events.qos(configuration.pacing))
         names = [name.strip() for name in self.parameters.topics.split(",") if name.strip()]
         own = {publisher.topic_name for publisher in outlet.publishers.values()}
-        own |= {command_topic, events.name}
+        own |= {*commands, events.name}
         resolved = dict.fromkeys(node.resolve_topic_name(name) for name in names)
         self.awaited = [name for name in resolved if name not in own]
         self.look_for_topics()
@@ -112,9 +144,9 @@ class Recording:
                 register(self.trace, publisher.topic_name, topic.type_name, qos)
         outlet.trace = self.trace
 
-    def put_command(self, data: bytes, received_ns: int, published_ns: int) -> None:
-        """Record a command as it came."""
-        self.trace.put(self._commands, data, received_ns, published_ns)
+    def put_command(self, name: str, data: bytes, received_ns: int, published_ns: int) -> None:
+        """Record a command as it came, under its resolved name."""
+        self.trace.put(name, data, received_ns, published_ns)
 
     def look_for_topics(self) -> None:
         """Subscribe to those of the others' topics that someone publishes by now."""
@@ -133,7 +165,7 @@ class Recording:
     def report(self) -> RecordingReport:
         """Return how the recording is doing."""
         return RecordingReport(
-            path=self.parameters.path,
+            path=self.path,
             status=self.trace.status(),
             problems=dict(self.problems),
             awaited=tuple(self.awaited),
@@ -155,7 +187,7 @@ class Recording:
 
         self._subscriptions.append(
             self._node.create_subscription(
-                message_class, name, receiver(put), profile(qos), raw=True
+                message_class, name, receiver(put, self._now_ns), profile(qos), raw=True
             )
         )
 

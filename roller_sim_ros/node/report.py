@@ -6,6 +6,7 @@ import math
 from dataclasses import dataclass
 
 from roller_sim_ros.meters import MeterValue
+from roller_sim_ros.node.clock_owner import said
 from roller_sim_ros.node.lateness import LatenessSummary
 from roller_sim_ros.session import ExciterStatus
 from roller_sim_ros.traces.recorder import RecorderStatus
@@ -85,6 +86,12 @@ class Report:
         Fully qualified name.
     drive : Drive or None
         None while the roller is not active.
+    paused : bool
+        Whether it is active and time stands still.
+    simulated_time : bool
+        Whether time is that of the samples.
+    rivals : tuple of str
+        Nodes that publish ``/clock`` beside this one.
     recent, total : LatenessSummary
         Lateness of the blocks since the last report and since the roller was activated.
     unsent, recently_unsent : int
@@ -101,10 +108,15 @@ class Report:
         Why the last of them was, or what the watchdog did; empty: nothing of the kind.
     refusing : bool
         Whether that happened after the last accepted command.
+    travel_refused, travel_refusal, travel_refusing
+        The same of travel commands.
     """
 
     node: str
     drive: Drive | None
+    paused: bool
+    simulated_time: bool
+    rivals: tuple[str, ...]
     recent: LatenessSummary
     total: LatenessSummary
     unsent: int
@@ -115,11 +127,15 @@ class Report:
     refused: int
     refusal: str
     refusing: bool
+    travel_refused: int
+    travel_refusal: str
+    travel_refusing: bool
 
 
 def diagnostics(report: Report) -> list[Diagnostic]:
     """Return the entries of ``/diagnostics``."""
-    return [_pacing(report), _exciter(report), _recording(report)]
+    entries = [_pacing(report), _exciter(report), _travel(report), _recording(report)]
+    return [*entries, _clock(report)] if report.simulated_time else entries
 
 
 def _pacing(report: Report) -> Diagnostic:
@@ -133,6 +149,8 @@ def _pacing(report: Report) -> Diagnostic:
         level, message = Level.ERROR, f"{report.recently_unsent} messages could not be sent"
     elif drive.unsettled_steps:
         level, message = Level.WARN, f"{drive.unsettled_steps} steps did not settle"
+    elif report.paused:
+        level, message = Level.OK, "paused"
     elif recent.late:
         level, message = Level.WARN, f"{recent.late} of {recent.blocks} blocks late"
     return Diagnostic(
@@ -168,6 +186,29 @@ def _exciter(report: Report) -> Diagnostic:
             "refused_commands": report.refused,
             "last_refused_command": report.refusal or "none",
         },
+        hardware_id=report.node,
+    )
+
+
+def _travel(report: Report) -> Diagnostic:
+    refusing = report.travel_refusing
+    return Diagnostic(
+        name=f"{report.node}: travel",
+        level=Level.WARN if refusing else Level.OK,
+        message=report.travel_refusal if refusing else "nothing refused",
+        values={
+            "refused_commands": report.travel_refused,
+            "last_refused_command": report.travel_refusal or "none",
+        },
+        hardware_id=report.node,
+    )
+
+
+def _clock(report: Report) -> Diagnostic:
+    return Diagnostic(
+        name=f"{report.node}: clock",
+        level=Level.WARN if report.rivals else Level.OK,
+        message=said(report.rivals) if report.rivals else "no other publishes /clock",
         hardware_id=report.node,
     )
 

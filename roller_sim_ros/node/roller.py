@@ -1,20 +1,23 @@
-"""The roller behind the node: topics, recording, commands, and the pacing thread."""
+"""The roller behind the node: topics, recording, commands, and the run with its time."""
 
 from __future__ import annotations
 
 import gc
 import math
-from collections.abc import Mapping
+import time
+from collections.abc import Callable, Mapping
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 from rclpy.node import Node
 from rclpy.subscription import Subscription
-from rosbags.serde import SerdeError
 
 from roller_sim_ros.emulation import Emulator
 from roller_sim_ros.errors import RollerSimError
-from roller_sim_ros.node.command_input import COMMANDED, CommandInput, stopped
+from roller_sim_ros.node.beginning import Beginning
+from roller_sim_ros.node.clock_owner import ClockOwner
+from roller_sim_ros.node.inputs import Inputs, standing, upcoming
 from roller_sim_ros.node.interfaces import message_type
 from roller_sim_ros.node.lateness import Lateness
 from roller_sim_ros.node.outlet import Outlet
@@ -23,18 +26,22 @@ from roller_sim_ros.node.qos import overridable, overrides_of, profile
 from roller_sim_ros.node.realtime import request_scheduling
 from roller_sim_ros.node.recording import Recording, receiver
 from roller_sim_ros.node.report import Drive, RecordingReport, Report, diagnostics
+from roller_sim_ros.node.run import Run
 from roller_sim_ros.node.warm_up import try_out, warm_up
 from roller_sim_ros.parameters import PARAMETERS, Configuration, ParameterError, Value
-from roller_sim_ros.session import CommandRefused, ExciterCommand, ExciterStatus, Refusal
+from roller_sim_ros.session import Refusal
 from roller_sim_ros.wire import messages, topics
-from roller_sim_ros.wire.types import decode
 
 CLOSE_S = 1.5
 """How long the end of the node waits for the recording to be finished."""
+CLOSE_SIMULATED_S = 60.0
+"""The same in simulated time, which may have gone faster than the disk."""
+
+_COMMANDS = (topics.EXCITER_COMMAND, topics.CMD_VEL)
 
 
 class Roller:
-    """Prepared, it has its topics and its recording; started, it runs in real time.
+    """Prepared, it has its topics and its recording; started, it runs: in real time, or in time of its own.
 
     All calls come from one thread, that of the node's executor; only the pacing thread works beside it.
 
@@ -42,42 +49,96 @@ class Roller:
     ----------
     node : rclpy.node.Node
         The node.
-    configuration : Configuration
-        All parameters.
+    beginning : Beginning
+        All parameters, and the scenario.
 
     Attributes
     ----------
-    configuration : Configuration
-        All parameters as they were last accepted; commands count as parameters of the exciter.
+    inputs : Inputs
+        Who takes what clients want.
+    active : bool
+        Whether the node is: a client may stop and start the run then.
+    stop_at_end : bool
+        Whether time stands still where all that the scenario planned has been driven.
     last_report : Report or None
         The last one while the roller ran.
     last_recording : RecordingReport or None
         What became of the last recording that was closed.
     """
 
-    def __init__(self, node: Node, configuration: Configuration) -> None:
-        self.configuration = configuration
+    def __init__(self, node: Node, beginning: Beginning) -> None:
+        self.active = False
+        self.stop_at_end = False
         self.last_report: Report | None = None
         self.last_recording: RecordingReport | None = None
         self._node = node
+        self._beginning = beginning
+        self._configuration = beginning.configuration
         self._prepared: Configuration | None = None
-        self._commands: Subscription[Any] | None = None
+        self._commands: list[Subscription[Any]] = []
         self._outlet: Outlet | None = None
         self._recording: Recording | None = None
+        self._recordings = 0
         self._pacer: Pacer | None = None
-        self._input = CommandInput()
+        self._clock: ClockOwner | None = None
+        self._step_failure: Exception | None = None
         self._reported = (0.0, 0.0)
         self._unsent = 0
+        self.inputs = Inputs(self._warn, self._answer, self._watched_s)
+
+    @property
+    def configuration(self) -> Configuration:
+        """All parameters as they were last accepted; commands count as parameters of the exciter."""
+        if self._pacer is None:
+            return self._configuration
+        return self._configuration.changed(
+            {
+                name: value
+                for name, value in upcoming(self._pacer.run.emulator).flat().items()
+                if not name.startswith(_OF_THE_NODE)
+            }
+        )
 
     @property
     def running(self) -> bool:
-        """Whether it was started and not stopped."""
+        """Whether it was started and not stopped; it may be paused."""
         return self._pacer is not None
 
     @property
+    def run(self) -> Run | None:
+        """What runs."""
+        return self._pacer.run if self._pacer else None
+
+    @property
+    def playing(self) -> bool:
+        """Whether time goes on by itself."""
+        return self._pacer is not None and self._pacer.playing
+
+    @property
+    def simulated_time(self) -> bool:
+        """Whether time is that of the samples."""
+        return self._configuration.pacing.simulated_time
+
+    @property
+    def lock_step(self) -> bool:
+        """Whether time goes on only when a client steps it."""
+        return self._configuration.pacing.lock_step
+
+    @property
+    def ended(self) -> bool:
+        """Whether all that the scenario planned has been driven."""
+        return self._pacer is not None and self._pacer.run.ended
+
+    @property
     def failure(self) -> Exception | None:
-        """What ended the pacing unasked."""
-        return self._pacer.failure if self._pacer else None
+        """What ended the run unasked."""
+        return self._step_failure or (self._pacer.failure if self._pacer else None)
+
+    def now_ns(self) -> int:
+        """Return the time that messages and recordings are stamped with, ns."""
+        if not self.simulated_time:
+            return int(self._node.get_clock().now().nanoseconds)
+        return self._pacer.run.time_ns if self._pacer else 0
 
     def prepare(self) -> None:
         """Compile; open the topics and the recording.
@@ -87,74 +148,113 @@ class Roller:
         RollerSimError
             If the configuration cannot be emulated or the recording not be begun; all is closed then.
         """
-        configuration = self.configuration
-        topic = topics.EXCITER_COMMAND
+        self._beginning = self._beginning.with_parameters(self._configuration)
+        configuration = self._configuration = self._beginning.configuration
+        pacing = configuration.pacing
+        simulated = pacing.simulated_time
+        now_ns = self.now_ns if simulated else None
         try:
-            warm_up(configuration)
-            self._outlet = Outlet(self._node, configuration.pacing)
-            with overrides_of(topic):
-                self._commands = self._node.create_subscription(
-                    message_type(topic.type_name),
-                    topic.name,
-                    receiver(self._on_command),
-                    profile(topic.qos(configuration.pacing)),
-                    raw=True,
-                    qos_overriding_options=overridable(),
-                )
-            self._open_recording(self._outlet, self._commands.topic_name)
+            warm_up(self._beginning)
+            self._outlet = Outlet(self._node, pacing, now_ns or time.time_ns)
+            self._clock = ClockOwner(self._node, owns=topics.CLOCK.name in self._outlet.publishers)
+            for topic, take in zip(
+                _COMMANDS, (self.inputs.take_exciter, self.inputs.take_travel), strict=True
+            ):
+                self._subscribe(topic, take, now_ns)
+            self._open_recording(self._outlet)
         except RollerSimError:
             self.release()
             raise
         self._prepared = configuration
 
-    def start(self) -> None:
-        """Start from standstill.
+    def start(self, *, paused: bool = False) -> None:
+        """Start from the beginning.
+
+        Parameters
+        ----------
+        paused : bool
+            Do not let time go on by itself yet; in lock step it never does.
 
         Raises
         ------
         RollerSimError
             As `prepare`, which is done again if parameters changed that need it.
         """
-        if self._prepared is None or _structure(self._prepared) != _structure(self.configuration):
+        if self._prepared is None or _structure(self._prepared) != _structure(self._configuration):
             self._close_topics()
             self.prepare()
-        assert self._outlet is not None  # since prepared
-        pacing = self.configuration.pacing
-        start_ns = self._node.get_clock().now().nanoseconds
-        self._input.accepted()
-        self._pacer = Pacer(
-            Emulator(self.configuration, start_ns=start_ns, run_up=True),
-            pacing.samples_per_message,
-            self._outlet.send,
-            self._outlet.imu_wanted,
-            pacing.realtime_priority,
+        self._beginning = self._beginning.with_parameters(self._configuration)
+        self._configuration = self._beginning.configuration
+        start_ns = 0 if self.simulated_time else self.now_ns()
+        self._begin(self._beginning.emulator(start_ns), paused=paused)
+
+    def go_on(self, emulator: Emulator) -> None:
+        """Run an emulator that was restored, paused; the one that ran is dropped.
+
+        Raises
+        ------
+        RollerSimError
+            If its recording cannot be begun.
+        """
+        self.stop()
+        self._configuration = self._configuration.changed(
+            {
+                name: value
+                for name, value in emulator.session.configuration.flat().items()
+                if not name.startswith(_OF_THE_NODE)
+            }
         )
-        # What is there by now stays; the collector need not look at it again and again.
-        gc.collect()
-        gc.freeze()
-        self._reported = (0.0, 0.0)
-        self._pacer.start()
-        if pacing.realtime_priority > 0:
-            # This thread holds the interpreter now and then; preempted in it, it would hold up the pacing.
-            request_scheduling(pacing.realtime_priority - 1)
-        for line in self._pacer.realtime:
-            self._node.get_logger().info(f"real time: {line}")
+        self._begin(emulator, paused=True)
+
+    def reset(self) -> None:
+        """Run from the beginning again, with the parameters of then; paused if it was.
+
+        Raises
+        ------
+        RollerSimError
+            If its recording cannot be begun.
+        """
+        playing = self.playing
+        self.stop()
+        self._configuration = self._beginning.configuration
+        self.start(paused=not playing)
+
+    def play(self) -> None:
+        """Let time go on by itself."""
+        if self._pacer is not None:
+            self._pacer.play()
+
+    def pause(self) -> None:
+        """Let time stand still after the block under way."""
+        if self._pacer is not None:
+            self._pacer.pause()
+
+    def failed(self, error: Exception) -> None:
+        """Note that a step of the run failed; the process ends."""
+        self._step_failure = error
 
     def stop(self) -> None:
         """Stop; topics and recording stay open."""
         if self._pacer is not None:
             self._pacer.stop()
             gc.unfreeze()
-            if self.configuration.pacing.realtime_priority > 0:
+            if self._configuration.pacing.realtime_priority > 0:
                 request_scheduling(0)
             self.report()
+            self._configuration = self.configuration
             self._pacer = None
+            self.inputs.end()
 
     def release(self) -> None:
         """Stop, and close everything."""
         self.stop()
         self._close_recording()
         self._close_topics()
+
+    def wait_until_read(self) -> None:
+        """Wait until readers have what was sent."""
+        if self._outlet is not None:
+            self._outlet.wait_until_read()
 
     def check(self, values: Mapping[str, Value]) -> Configuration:
         """Return the configuration that `change` would make.
@@ -170,6 +270,9 @@ class Roller:
                     raise ParameterError(
                         name, value, "cannot change while the roller is active; deactivate it first"
                     )
+        for name, value in values.items():
+            if name == "scenario.path" and value != self._configuration.scenario.path:
+                raise ParameterError(name, value, "is said when the node starts")
         return self.configuration.changed(values)
 
     def change(self, values: Mapping[str, Value]) -> None:
@@ -182,19 +285,17 @@ class Roller:
         """
         configuration = self.check(values)
         try_out(configuration)
-        if self._pacer is not None:
-            self._pacer.emulator.change(values)
-        self.configuration = configuration
-        if any(name in COMMANDED for name in values):
-            self._input.accepted()
+        self.inputs.change(values)
+        if self._pacer is None:
+            self._configuration = configuration
 
     def watch(self) -> None:
-        """Run the exciter down when commands fail to come; look for topics that are to be recorded."""
-        if self._pacer is not None:
-            overdue = self._input.overdue(self.configuration.exciter)
-            if overdue:
-                self._obey(self._pacer, stopped(self.configuration.exciter))
-                self._refuse(Refusal.TIMEOUT, overdue, overdue)
+        """Look after what goes on by itself: watchdogs, topics that are to be recorded, ``/clock``."""
+        if not self.simulated_time:
+            self.inputs.watch()
+        elif self._outlet is not None and not self.playing:
+            # Those who come while time stands still need to know it.
+            self._outlet.announce(messages.clock(self.now_ns()))
         if self._recording is not None:
             self._recording.look_for_topics()
 
@@ -203,17 +304,23 @@ class Roller:
         pacer, recording = self._pacer, self._recording
         factor = math.nan
         if pacer is not None:
-            (before_s, then_s), (after_s, now_s) = self._reported, pacer.progress
+            (before_s, then_s), (after_s, now_s) = self._reported, pacer.run.progress
             self._reported = (after_s, now_s)
             if now_s > then_s:
                 factor = (after_s - before_s) / (now_s - then_s)
+        if self._clock is not None:
+            self._clock.look()
         unsent = self._outlet.unsent if self._outlet else 0
         if unsent > self._unsent:
             self._node.get_logger().error(f"{unsent - self._unsent} messages could not be sent")
         lateness = pacer.lateness if pacer else Lateness()
+        exciter, travel = self.inputs.exciter, self.inputs.travel
         report = Report(
             node=self._node.get_fully_qualified_name(),
-            drive=_drive(pacer.emulator) if pacer else None,
+            drive=_drive(pacer.run.emulator) if pacer else None,
+            paused=pacer is not None and not pacer.playing,
+            simulated_time=self.simulated_time,
+            rivals=self._clock.rivals if self._clock else (),
             recent=lateness.recent(),
             total=lateness.total(),
             unsent=unsent,
@@ -221,103 +328,154 @@ class Roller:
             real_time_factor=factor,
             realtime=tuple(pacer.realtime) if pacer else (),
             recording=recording.report() if recording else None,
-            refused=self._input.refused,
-            refusal=self._input.reason,
-            refusing=self._input.refusing,
+            refused=exciter.refused,
+            refusal=exciter.reason,
+            refusing=exciter.refusing,
+            travel_refused=travel.refused,
+            travel_refusal=travel.reason,
+            travel_refusing=travel.refusing,
         )
         self._unsent = unsent
         if report.drive is not None:
             self.last_report = report
         if self._outlet is not None:
-            stamp_ns = self._node.get_clock().now().nanoseconds
-            self._outlet.send([messages.diagnostic_array(diagnostics(report), stamp_ns)])
+            self._outlet.send([messages.diagnostic_array(diagnostics(report), self.now_ns())])
         return report
 
-    def _open_recording(self, outlet: Outlet, command_topic: str) -> None:
+    def _begin(self, emulator: Emulator, *, paused: bool) -> None:
+        assert self._outlet is not None  # since prepared
+        pacing = self._configuration.pacing
+        if self.simulated_time and self._recording is not None and self._recording.used:
+            # Time jumps back, which a trace does not: every run has its own.
+            self._close_recording()
+            self._open_recording(self._outlet)
+        if self._recording is not None:
+            self._recording.used = True
+        run = Run(
+            emulator,
+            pacing.samples_per_message,
+            self._outlet.send,
+            self._outlet.imu_wanted,
+            clock=topics.CLOCK.name in self._outlet.publishers,
+        )
+        speed = pacing.speed if self.simulated_time else 1.0
+        pacer = self._pacer = Pacer(run, speed, pacing.realtime_priority)
+        run.on_end = self._on_end
+        if self.simulated_time:
+            run.before_revolution = lambda _: self.inputs.watch()
+        self.inputs.begin(emulator)
+        # What is there by now stays; the collector need not look at it again and again.
+        gc.collect()
+        gc.freeze()
+        self._reported = (0.0, 0.0)
+        pacer.start(paused=paused or pacing.lock_step)
+        if pacing.realtime_priority > 0:
+            # This thread holds the interpreter now and then; preempted in it, it would hold up the pacing.
+            request_scheduling(pacing.realtime_priority - 1)
+        for line in pacer.realtime:
+            self._node.get_logger().info(f"real time: {line}")
+
+    def _on_end(self) -> None:
+        if self.stop_at_end and self._pacer is not None:
+            self._pacer.stop_playing()
+        else:
+            self._node.get_logger().info("the scenario has been driven; the roller stands")
+
+    def _subscribe(
+        self,
+        topic: topics.Topic,
+        take: Callable[[bytes], None],
+        now_ns: Callable[[], int] | None,
+    ) -> None:
+        name = self._node.resolve_topic_name(topic.name)
+
+        def put(data: bytes, received_ns: int, published_ns: int) -> None:
+            if self._recording is not None:
+                self._recording.put_command(name, data, received_ns, published_ns)
+            take(data)
+
+        with overrides_of(topic):
+            self._commands.append(
+                self._node.create_subscription(
+                    message_type(topic.type_name),
+                    topic.name,
+                    receiver(put, now_ns),
+                    profile(topic.qos(self._configuration.pacing)),
+                    raw=True,
+                    qos_overriding_options=overridable(),
+                )
+            )
+
+    def _open_recording(self, outlet: Outlet) -> None:
         """Begin the recording that the parameters ask for, or go on with the one that is open."""
-        wanted = self.configuration.recording
+        wanted = self._configuration.recording
         if self._recording is not None and self._recording.parameters == wanted:
             self._recording.attach(outlet)
             return
         self._close_recording()
         if wanted.path:
-            self._recording = Recording(self._node, outlet, command_topic, self.configuration)
+            start_ns = self.now_ns()
+            self._recording = Recording(
+                self._node,
+                outlet,
+                dict(zip((item.topic_name for item in self._commands), _COMMANDS, strict=True)),
+                self._configuration,
+                self._beginning.metadata(start_ns),
+                _numbered(wanted.path, self._recordings),
+                self.now_ns if self.simulated_time else None,
+            )
+            self._recordings += self.simulated_time
 
     def _close_recording(self) -> None:
         if self._recording is not None:
             recording, self._recording = self._recording, None
             if self._outlet is not None:
                 self._outlet.trace = None
-            recording.close(CLOSE_S)
+            recording.close(CLOSE_SIMULATED_S if self.simulated_time else CLOSE_S)
             self.last_recording = recording.report()
 
     def _close_topics(self) -> None:
         self._prepared = None
-        if self._commands is not None:
-            self._node.destroy_subscription(self._commands)
-            self._commands = None
+        for subscription in self._commands:
+            self._node.destroy_subscription(subscription)
+        self._commands.clear()
         if self._outlet is not None:
             self._outlet.destroy()
             self._outlet = None
             self._unsent = 0
 
-    def _on_command(self, data: bytes, received_ns: int, published_ns: int) -> None:
-        if self._recording is not None:
-            self._recording.put_command(data, received_ns, published_ns)
-        try:
-            message = decode(data, topics.EXCITER_COMMAND.type_name)
-        except SerdeError as error:
-            reason = f"message of {len(data)} bytes: is no ExciterCommand ({error})"
-            self._refuse(Refusal.DAMAGED, f"command refused: {reason}", reason)
-            return
-        try:
-            if self._pacer is None:
-                raise CommandRefused(
-                    Refusal.NOT_ACTIVE,
-                    f"frequency {message.frequency:g} Hz, amplitude {message.amplitude:g} m: "
-                    "the roller is not active",
-                )
-            command = ExciterCommand(message.vibrate, message.frequency, message.amplitude)
-            self._obey(self._pacer, command)
-        except CommandRefused as error:
-            self._refuse(error.code, f"command refused: {error}", str(error))
-        else:
-            self._input.accepted()
+    def _warn(self, line: str) -> None:
+        self._node.get_logger().warning(line)
 
-    def _obey(self, pacer: Pacer, command: ExciterCommand) -> None:
-        values = (command.vibrate, command.frequency_hz, command.amplitude_m)
-        pacer.emulator.command(
-            vibrate=command.vibrate,
-            frequency_hz=command.frequency_hz,
-            amplitude_m=command.amplitude_m,
-        )
-        self.configuration = self.configuration.changed(dict(zip(COMMANDED, values, strict=True)))
+    def _answer(self, code: Refusal, reason: str) -> None:
+        """Let ``exciter/state`` of a roller that is not active say why a command was refused."""
+        if self._outlet is not None:
+            exciter = self._configuration.exciter
+            self._outlet.send([standing(exciter, self.now_ns(), code, reason)])
 
-    def _refuse(self, code: Refusal, line: str, reason: str) -> None:
-        """Say that a command was refused, or missed: log, exciter/state, diagnostics."""
-        if self._input.refuse(code, reason):
-            self._node.get_logger().warning(line)
-        if self._pacer is not None:
-            self._pacer.emulator.refuse(code, reason)
-        elif self._outlet is not None:
-            exciter = self.configuration.exciter
-            status = ExciterStatus(
-                vibrating=False,
-                commanded_frequency_hz=exciter.frequency_hz,
-                commanded_amplitude_m=exciter.amplitude_m,
-                frequency_hz=0.0,
-                amplitude_m=0.0,
-                force_amplitude_n=0.0,
-                applied_sample=0,
-            )
-            stamp_ns = self._node.get_clock().now().nanoseconds
-            self._outlet.send([messages.exciter_state(status, stamp_ns, code, reason)])
+    def _watched_s(self) -> float:
+        """Return the time by which the watchdogs count."""
+        if not self.simulated_time:
+            return time.monotonic()
+        return self._pacer.run.time_s if self._pacer else 0.0
+
+
+_OF_THE_NODE = ("pacing.", "recording.", "scenario.")
+"""How parameters begin that a saved state says nothing about."""
 
 
 def _structure(configuration: Configuration) -> dict[str, Value]:
     """Return the parameters that cannot change while the roller runs."""
     flat = configuration.flat()
     return {name: value for name, value in flat.items() if not PARAMETERS[name][0].live}
+
+
+def _numbered(path: str, before: int) -> str:
+    """Return the file of a run: as asked for, and with a number for those after the first."""
+    if not before:
+        return path
+    first = Path(path)
+    return str(first.with_name(f"{first.stem}-{before + 1}{first.suffix}"))
 
 
 def _drive(emulator: Emulator) -> Drive | None:

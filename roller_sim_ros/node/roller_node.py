@@ -15,9 +15,10 @@ from rclpy.timer import Timer
 
 from roller_sim_ros.errors import RollerSimError
 from roller_sim_ros.node import parameters
-from roller_sim_ros.node.command_input import COMMANDED
+from roller_sim_ros.node.fault_services import FaultServices
 from roller_sim_ros.node.report import Report
 from roller_sim_ros.node.roller import Roller
+from roller_sim_ros.node.simulation_services import SimulationServices
 from roller_sim_ros.parameters import PARAMETERS, Value
 
 NAME = "roller_sim"
@@ -36,22 +37,30 @@ class RollerNode(LifecycleNode):
         Namespace, unless the command line remaps it.
     overrides : mapping
         {dotted name: SI value}, stronger than those of the command line and of files.
+    stopping : callable
+        Whether the process is asked to end; a long step heeds it.
 
     Attributes
     ----------
     roller : Roller
         What the transitions act on.
+    simulation : SimulationServices
+        Steps, states and saved states.
     on_report : callable or None
         Called once a second with the node's `Report`.
 
     Raises
     ------
-    ParameterError
-        If a parameter is unknown or its value refused.
+    RollerSimError
+        If a parameter is unknown or its value refused, or the scenario cannot be read.
     """
 
     def __init__(
-        self, *, namespace: str = "", overrides: Mapping[str, Value] | None = None
+        self,
+        *,
+        namespace: str = "",
+        overrides: Mapping[str, Value] | None = None,
+        stopping: Callable[[], bool] = lambda: False,
     ) -> None:
         super().__init__(
             NAME,
@@ -65,6 +74,8 @@ class RollerNode(LifecycleNode):
         self._next_report = 0.0
         self._echoing = False
         self.add_on_set_parameters_callback(self._on_set_parameters)
+        self.simulation = SimulationServices(self, self.roller, stopping)
+        self._faults = FaultServices(self, self.roller)
 
     @property
     def autostart(self) -> bool:
@@ -80,7 +91,8 @@ class RollerNode(LifecycleNode):
         """
         items = parameters.floats_for_integers(parameter_list)
         try:
-            self.roller.check(_declared(items))
+            if not self._echoing:
+                self.roller.check(_declared(items))
         except RollerSimError as error:
             return SetParametersResult(successful=False, reason=str(error))
         return super().set_parameters_atomically(items)
@@ -98,11 +110,11 @@ class RollerNode(LifecycleNode):
 
     def on_activate(self, _state: LifecycleState) -> TransitionCallbackReturn:
         """Start the roller from standstill."""
-        return self._transition(self.roller.start)
+        return self._transition(self._activate)
 
     def on_deactivate(self, _state: LifecycleState) -> TransitionCallbackReturn:
         """Stop the roller; topics and recording stay open."""
-        return self._transition(self.roller.stop)
+        return self._transition(self._deactivate)
 
     def on_cleanup(self, _state: LifecycleState) -> TransitionCallbackReturn:
         """Close the recording and the topics."""
@@ -134,7 +146,16 @@ class RollerNode(LifecycleNode):
         steady = Clock(clock_type=ClockType.STEADY_TIME)
         self._tick_timer = self.create_timer(TICK_S, self._tick, clock=steady)
 
+    def _activate(self) -> None:
+        self.roller.start()
+        self.roller.active = True
+
+    def _deactivate(self) -> None:
+        self.roller.active = False
+        self.roller.stop()
+
     def _release(self) -> None:
+        self.roller.active = False
         if self._tick_timer is not None:
             self.destroy_timer(self._tick_timer)
             self._tick_timer = None
@@ -154,15 +175,15 @@ class RollerNode(LifecycleNode):
         now = time.monotonic()
         if now >= self._next_report:
             self._next_report = now + REPORT_S - TICK_S / 2
-            self._show_commanded()
+            self._show_current()
             report = self.roller.report()
             if self.on_report is not None:
                 self.on_report(report)
 
-    def _show_commanded(self) -> None:
-        """Let the parameters say what was commanded by topic."""
+    def _show_current(self) -> None:
+        """Let the parameters say what holds: by a command, by the scenario, by a state that was restored."""
         flat = self.roller.configuration.flat()
-        told = [Parameter(name, value=flat[name]) for name in COMMANDED]
+        told = [Parameter(name, value=value) for name, value in flat.items()]
         changed = [item for item in told if item.value != self.get_parameter(item.name).value]
         if changed:
             self._echoing = True

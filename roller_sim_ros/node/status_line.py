@@ -20,12 +20,21 @@ def status_line(report: Report) -> str:
         f"{exciter.frequency_hz:5.2f} Hz {exciter.amplitude_m * 1e3:5.3f} mm  "
         f"G {drive.shear_modulus_pa / 1e6:5.1f} MPa  p {drive.plastic_parameter_m * 1e3:5.3f} mm  "
         f"CMV {cmv}  RMV {rmv}  {mode.name.lower().replace('_', ' '):18}  "
-        f"×{report.real_time_factor:5.3f}  late p99 {report.recent.p99_s * 1e3:5.2f} ms, "
-        f"{report.total.late} blocks"
+        f"{_pace(report)}"
     )
     if report.unsent:
         line += f", {report.unsent} messages not sent"
     return line + _recording(report.recording)
+
+
+def _pace(report: Report) -> str:
+    if report.paused:
+        drive = report.drive
+        return f"paused at {drive.simulated_s if drive else 0.0:.3f} s"
+    pace = f"×{report.real_time_factor:5.3f}"
+    if not report.recent.blocks:
+        return pace
+    return f"{pace}  late p99 {report.recent.p99_s * 1e3:5.2f} ms, {report.total.late} blocks"
 
 
 def summary(roller: Roller) -> str:
@@ -34,10 +43,14 @@ def summary(roller: Roller) -> str:
     if report is None or report.drive is None:
         return "stopped before the roller ran" + _recorded(roller.last_recording)
     total = report.total
-    return (
-        f"ran {report.drive.simulated_s:.1f} s: {report.drive.samples} samples in {total.blocks} blocks, "
+    lateness = (
+        f" in {total.blocks} blocks, "
         f"{total.late} late; lateness p50 {total.p50_s * 1e3:.2f}, p99 {total.p99_s * 1e3:.2f}, "
-        f"p99.9 {total.p999_s * 1e3:.2f}, max {total.max_s * 1e3:.2f} ms; {report.refused} commands refused"
+        f"p99.9 {total.p999_s * 1e3:.2f}, max {total.max_s * 1e3:.2f} ms"
+    )
+    return (
+        f"ran {report.drive.simulated_s:.1f} s: {report.drive.samples} samples{lateness if total.blocks else ''}; "
+        f"{report.refused} commands refused"
         + (f", {report.unsent} messages not sent" if report.unsent else "")
         + _recorded(roller.last_recording)
     )

@@ -9,12 +9,13 @@ import numpy as np
 from roller_sim_ros import session
 from roller_sim_ros.emulation import Emulator
 from roller_sim_ros.errors import RollerSimError
+from roller_sim_ros.node.beginning import Beginning
 from roller_sim_ros.parameters import SAMPLES_PER_REVOLUTION, Configuration
 from roller_sim_ros.wire import messages
 from roller_sim_ros.wire.types import decode
 
 
-def warm_up(configuration: Configuration) -> None:
+def warm_up(beginning: Beginning) -> None:
     """Run a roller of the same build for a moment, with all that it can send and receive.
 
     Raises
@@ -22,6 +23,7 @@ def warm_up(configuration: Configuration) -> None:
     ParameterError
         If the configuration is one that cannot be emulated.
     """
+    configuration = beginning.configuration
     exciter = replace(configuration.exciter, vibrate=True, frequency_hz=28.0, amplitude_m=2e-3)
     emulator = Emulator(replace(configuration, exciter=exciter), start_ns=0)
     session.warm_up(configuration)
@@ -31,8 +33,13 @@ def warm_up(configuration: Configuration) -> None:
         for _ in range(SAMPLES_PER_REVOLUTION // configuration.pacing.samples_per_message):
             emulator.advance(configuration.pacing.samples_per_message)
             emulator.imu_messages()
+    if beginning.scenario is not None:
+        begun = beginning.emulator(0)
+        for _ in range(2):
+            begun.advance(SAMPLES_PER_REVOLUTION)
     command = messages.exciter_command(session.ExciterCommand(True, 28.0, 1e-3), 0)
     decode(command.data, command.type_name)
+    messages.clock(0)
     messages.diagnostic_array([messages.Diagnostic("warm-up", values={"blocks": 0})], 0)
 
 

@@ -94,7 +94,7 @@ class Pacing(ParameterGroup):
     clock: str = parameter(
         "real",
         "",
-        "real: stamps and pace are the machine's; sim: time is the samples' own, begins at 0 and is published on /clock",
+        "real: stamps and pace are the machine's; sim: time is the samples' own, from 0 on, and published on /clock",
         choices=("real", "sim"),
     )
     speed: float = parameter(

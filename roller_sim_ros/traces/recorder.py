@@ -22,6 +22,9 @@ from roller_sim_ros.traces.writer import FLUSH_PERIOD_S
 START_TIMEOUT_S = 15.0
 CLOSE_TIMEOUT_S = 1.8
 
+ROOM_S = 0.5e-3
+"""How long a message that may wait does so before it tries again."""
+
 _BLOCKED = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
 
 
@@ -81,6 +84,8 @@ class Recorder:
         What is older than this is in the file and survives a SIGKILL of both processes.
     capacity : int
         Bytes that the hand-over holds while the disk is slow.
+    patience_s : float
+        How long a message may wait for room in the hand-over before it is dropped: 0 where time does not wait.
 
     Raises
     ------
@@ -96,8 +101,10 @@ class Recorder:
         overwrite: bool = False,
         flush_period_s: float = FLUSH_PERIOD_S,
         capacity: int = CAPACITY,
+        patience_s: float = 0.0,
     ) -> None:
         self.path = path
+        self._patience_s = patience_s
         self._lock = threading.Lock()
         self._channels: dict[str, _Channel] = {}
         self._failure = ""
@@ -154,7 +161,7 @@ class Recorder:
     def put(
         self, topic: str, data: bytes | memoryview, log_time_ns: int, publish_time_ns: int
     ) -> bool:
-        """Hand a message over; never waits for the other process.
+        """Hand a message over; waits for the other process only where the recorder has patience.
 
         Parameters
         ----------
@@ -178,14 +185,7 @@ class Recorder:
                 self._open
                 and self._ring.recording
                 and (not channel.unannounced or self._announce(channel))
-                and self._ring.push(
-                    Kind.MESSAGE,
-                    channel.number,
-                    channel.sequence,
-                    log_time_ns,
-                    publish_time_ns,
-                    data,
-                )
+                and self._push(channel, log_time_ns, publish_time_ns, data)
             ):
                 return True
             channel.dropped += 1
@@ -231,6 +231,24 @@ class Recorder:
                 f"{self._process.pid} goes on by itself"
             )
         return self.status()
+
+    def _push(
+        self,
+        channel: _Channel,
+        log_time_ns: int,
+        publish_time_ns: int,
+        data: bytes | memoryview,
+    ) -> bool:
+        """Put a message into the ring, as soon as there is room if that is soon enough."""
+        push, number, sequence = self._ring.push, channel.number, channel.sequence
+        if push(Kind.MESSAGE, number, sequence, log_time_ns, publish_time_ns, data):
+            return True
+        deadline = time.monotonic() + self._patience_s
+        while time.monotonic() < deadline and self._process.poll() is None and self._ring.recording:
+            time.sleep(ROOM_S)
+            if push(Kind.MESSAGE, number, sequence, log_time_ns, publish_time_ns, data):
+                return True
+        return False
 
     def _announce(self, channel: _Channel) -> bool:
         if not self._ring.push(Kind.CHANNEL, channel.number, 0, 0, 0, channel.unannounced):

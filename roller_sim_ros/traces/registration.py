@@ -42,14 +42,15 @@ def register(trace: Registrar, name: str, type_name: str, qos: Qos | None) -> No
 def register_all(
     trace: Registrar, pacing: Pacing, namespace: str = "/", topics: Iterable[Topic] = TOPICS
 ) -> dict[str, str]:
-    """Announce the node's topics in a namespace.
+    """Announce the node's topics in a namespace, but those that a node in simulated time alone has.
 
     Returns
     -------
     dict
         Names in the table of topics and the absolute names under which they are recorded.
     """
-    names = {topic.name: topic.resolved(namespace) for topic in topics}
-    for topic in topics:
+    wanted = [topic for topic in topics if not topic.of_simulated_time]
+    names = {topic.name: topic.resolved(namespace) for topic in wanted}
+    for topic in wanted:
         register(trace, names[topic.name], topic.type_name, topic.qos(pacing))
     return names

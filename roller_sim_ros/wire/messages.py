@@ -190,13 +190,13 @@ def compaction_meter(value: MeterValue, stamp_ns: int) -> Message:
 
 def cmv(value: MeterValue, stamp_ns: int) -> Message:
     """Return ``cmv``, the meter's value alone."""
-    return _message(topics.CMV, stamp_ns, value.cmv)
+    return _message(topics.CMV, stamp_ns, value.alone(value.cmv))
 
 
 def further_meters(value: MeterValue, stamp_ns: int) -> list[Message]:
     """Return ``meters/…``, each of the meter's further values alone."""
     return [
-        _message(topic, stamp_ns, number)
+        _message(topic, stamp_ns, value.alone(number))
         for topic, number in zip(topics.FURTHER_METERS, value.further.values(), strict=True)
     ]
 

@@ -114,7 +114,7 @@ CMV = Topic(
     "cmv",
     "std_msgs/msg/Float64",
     Direction.PUBLISHED,
-    "CMV alone, dimensionless, NaN when there is none; right after meter",
+    "CMV alone, dimensionless, NaN when there is none or samples were clipped; right after meter",
     _REVOLUTIONS,
     "per revolution",
 )
@@ -123,7 +123,8 @@ FURTHER_METERS: tuple[Topic, ...] = tuple(
         f"meters/{meter.name}",
         "std_msgs/msg/Float64",
         Direction.PUBLISHED,
-        f"{meter.label} alone, {meter.unit or 'dimensionless'}, NaN when there is none; right after meter",
+        f"{meter.label} alone, {meter.unit or 'dimensionless'}, NaN when there is none or samples were clipped; "
+        "right after meter",
         _REVOLUTIONS,
         "per revolution",
     )

@@ -23,7 +23,7 @@ LASTING = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
 def test_every_topic_is_offered_as_the_table_says(visitor):
     visitor.spin_until(lambda: visitor.node.count_publishers("/drum/acceleration"))
     for topic in TOPICS:
-        if topic.direction is Direction.RECORDED:
+        if topic.direction is Direction.RECORDED or topic.of_simulated_time:
             continue
         published = topic.direction is Direction.PUBLISHED
         find = (

@@ -24,7 +24,7 @@ def clock(monkeypatch):
 
 
 def test_the_same_refusal_is_logged_once_a_second(clock):
-    commands = CommandInput()
+    commands = CommandInput(clock.monotonic)
     assert commands.refuse(Refusal.NEGATIVE, "a")
     assert not commands.refuse(Refusal.NEGATIVE, "a")
     assert commands.refuse(Refusal.NEGATIVE, "b")
@@ -35,7 +35,7 @@ def test_the_same_refusal_is_logged_once_a_second(clock):
 
 def test_watchdog_acts_once_the_time_is_over_and_only_while_vibrating(clock):
     exciter = Exciter(command_timeout_s=2.0)
-    commands = CommandInput()
+    commands = CommandInput(clock.monotonic)
     commands.accepted()
     clock.now += 2.0
     assert commands.overdue(exciter) == ""
@@ -47,8 +47,8 @@ def test_watchdog_acts_once_the_time_is_over_and_only_while_vibrating(clock):
     assert commands.overdue(exciter) == ""
 
 
-def test_what_the_watchdog_does_is_told_but_is_no_refused_command():
-    commands = CommandInput()
+def test_what_the_watchdog_does_is_told_but_is_no_refused_command(clock):
+    commands = CommandInput(clock.monotonic)
     commands.refuse(Refusal.TIMEOUT, "silence")
     assert (commands.refused, commands.reason, commands.refusing) == (0, "silence", True)
     commands.accepted()
