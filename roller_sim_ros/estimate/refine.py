@@ -1,0 +1,152 @@
+"""Local refinement: the model's steady waveform laid on the measured one by least squares, and what is left."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.optimize import least_squares
+
+from roller_sim_ros.estimate.orbit import Orbit
+from roller_sim_ros.estimate.soil_map import LEAST, MOST
+from roller_sim_ros.estimate.waveform import Waveform
+from roller_sim_ros.parameters import Configuration
+
+Array = NDArray[np.float64]
+
+STARTS = (1.0, 1.4, 0.7)
+"""Amplitudes to start from over the known one, tried in turn until one leads to the measured motion."""
+
+FOUND = 0.02
+"""Share of the measured waveform's size up to which what is left means that this is the motion."""
+
+FOUND_SIGMAS = 3.0
+"""The same in standard deviations of the waveform's noise."""
+
+DIFFERENCE = 1e-3
+"""Step of ln G and ln p for the derivatives: well above what is left of transients, and changes go with its square."""
+
+TOLERANCE = 1e-5
+"""Of ln G and ln p."""
+
+MOST_STEPS = 12
+
+REACH = 2.0
+"""Of ln G and ln p from where it starts."""
+
+CORRELATED = 24
+"""Samples over which what is left may be alike."""
+
+
+@dataclass(frozen=True)
+class Refined:
+    """A ground whose steady motion is the measured one, as far as that goes.
+
+    Attributes
+    ----------
+    logs : ndarray, shape (2,)
+        ln G and ln p.
+    covariance : ndarray, shape (2, 2)
+        Of them; infinite where the motion does not depend on them.
+    modelled : ndarray, shape (n,)
+        The motion's vertical acceleration without its mean, m/s².
+    misfit : float
+        Root mean square of modelled less measured, m/s².
+    repeats : bool
+        Whether the modelled motion repeats with the measured period.
+    """
+
+    logs: Array
+    covariance: Array
+    modelled: Array
+    misfit: float
+    repeats: bool
+
+
+def refine(measured: Waveform, start: Array, known: Configuration) -> Refined:
+    """Return the ground whose motion is nearest to a waveform.
+
+    Parameters
+    ----------
+    measured : Waveform
+        One period.
+    start : ndarray, shape (2,)
+        ln G and ln p to start from.
+    known : Configuration
+        Machine, exciter, half space, density, Poisson's ratio.
+    """
+    size = float(np.sqrt(np.mean(measured.vertical**2)))
+    enough = max(FOUND * size, FOUND_SIGMAS * measured.noise)
+    best: Refined | None = None
+    for factor in STARTS:
+        found = _from(measured, start, known, factor)
+        if best is None or found.misfit < best.misfit:
+            best = found
+        if best.misfit <= enough:
+            break
+    assert best is not None  # there are starts
+    return best
+
+
+def _from(measured: Waveform, start: Array, known: Configuration, factor: float) -> Refined:
+    """Refine from one start."""
+    samples = len(measured.vertical) // measured.period
+    orbit = Orbit(known, start, measured.period, samples, factor)
+    # A motion over several revolutions may have begun with any of them.
+    first = orbit.vertical(start)
+    shifts = [samples * turn for turn in range(measured.period)]
+    shift = min(shifts, key=lambda by: float(((np.roll(first, by) - measured.vertical) ** 2).sum()))
+
+    def residual(logs: Array) -> Array:
+        return np.asarray(np.roll(orbit.vertical(logs), shift) - measured.vertical)
+
+    found = least_squares(
+        residual,
+        start,
+        bounds=(
+            np.maximum(np.log(LEAST), start - REACH) - 1e-9,
+            np.minimum(np.log(MOST), start + REACH) + 1e-9,
+        ),
+        x_scale=0.1,
+        diff_step=[DIFFERENCE, DIFFERENCE],
+        xtol=TOLERANCE,
+        ftol=1e-6,
+        gtol=1e-12,
+        max_nfev=MOST_STEPS,
+    )
+    return Refined(
+        logs=np.asarray(found.x),
+        covariance=covariance(np.asarray(found.jac), found.fun),
+        modelled=measured.vertical + found.fun,
+        misfit=float(np.sqrt(np.mean(found.fun**2))),
+        repeats=orbit.repeats,
+    )
+
+
+def covariance(jacobian: Array, left: Array) -> Array:
+    """Return the covariance of parameters fitted by least squares, from what the fit leaves.
+
+    What a wrong model leaves is alike from sample to sample, so that there is less in it than its samples would say:
+    the sandwich (JᵀJ)⁻¹ Jᵀ S J (JᵀJ)⁻¹ with S from the autocovariance of what is left over `CORRELATED` samples,
+    tapered (Newey & West 1987); periodic, as the waveform is. For white noise that is s² (JᵀJ)⁻¹.
+
+    Parameters
+    ----------
+    jacobian : ndarray, shape (n, 2)
+        Derivatives of what is left.
+    left : ndarray, shape (n,)
+        What is left.
+    """
+    count = len(left)
+    normal = jacobian.T @ jacobian
+    if not np.linalg.cond(normal) < 1e14:
+        return np.full((2, 2), np.inf)
+    power = np.abs(np.fft.fft(left)) ** 2 / count
+    autocovariance = np.fft.ifft(power).real * count / max(count - 2, 1)
+    lags = np.minimum(np.arange(count), count - np.arange(count))
+    taper = np.maximum(0.0, 1.0 - lags / CORRELATED)
+    spectrum = np.fft.fft(autocovariance * taper).real
+    filtered = np.fft.ifft(spectrum[:, np.newaxis] * np.fft.fft(jacobian, axis=0), axis=0).real
+    inverse = np.linalg.inv(normal)
+    return np.asarray(inverse @ (jacobian.T @ filtered) @ inverse)
