@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 from roller_sim_ros.errors import RollerSimError
 
 
-def write_json(report: Mapping[str, object], name: str) -> None:
-    """Write a JSON object to a file, or with ``-`` to the standard output.
+def write_json(report: Mapping[str, object] | Sequence[object], name: str) -> None:
+    """Write a JSON object or list to a file, or with ``-`` to the standard output.
 
     Raises
     ------

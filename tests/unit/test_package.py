@@ -67,6 +67,7 @@ LAYERS = (
     "export",
     "offline",
     "sweep",
+    "estimate",
     "node",
     "commands",
 )
