@@ -17,6 +17,7 @@ COMMANDS = {
     "sim": "run the roller in real time as a ROS 2 node",
     "run": "run the roller without ROS, as fast as it goes",
     "sweep": "map what the roller settles on over a grid of parameters",
+    "estimate": "estimate the ground from a trace: shear modulus and plastic parameter",
     "analyze": "evaluate a trace: gaps, meter values, plot and CSV",
     "export": "write a trace as CSV, Parquet, MATLAB, sound or a map",
     "play": "republish a trace over ROS 2 at its original pace",
