@@ -247,7 +247,8 @@ class _Pass:
             self._note(kind, found)
 
     def _on_meter(self, message: Any) -> None:
-        self._recorded_cmv = float(message.cmv)
+        clipped = Status.CLIPPED in Status(int(message.status))
+        self._recorded_cmv = math.nan if clipped else float(message.cmv)
         self._recorded_sample = int(message.last_sample)
         if message.window_revolutions != self.result.window_revolutions:
             self._other_window = int(message.window_revolutions)
@@ -281,7 +282,7 @@ class _Pass:
             return
         before = self._recorded_cmv
         if not self._selection.meter and self._last is not None:
-            before = self._last.cmv
+            before = self._last.alone(self._last.cmv)
         if before is None:
             comparison.unmatched += 1
         else:
@@ -299,7 +300,7 @@ class _Pass:
         if last is None or self._recorded_sample not in (None, last.last_sample):
             comparison.unmatched += 1
         elif math.isnan(recorded) or not last.status & (Status.WINDOW_FILLING | Status.GAP):
-            comparison.add({name: recorded}, last.further)
+            comparison.add({name: recorded}, {name: last.alone(last.further[name])})
         else:
             comparison.window_incomplete += 1
 

@@ -82,6 +82,10 @@ class MeterValue:
     status: Status
     further: Mapping[str, float] = field(default_factory=_unknown_further)
 
+    def alone(self, value: float) -> float:
+        """Return one of the values for those who do not see the status: NaN where samples were clipped."""
+        return math.nan if Status.CLIPPED in self.status else value
+
 
 class CompactionMeter:
     """Streaming meter; `feed` it blocks, it returns a value for each completed revolution.
