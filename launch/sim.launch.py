@@ -1,6 +1,6 @@
 """Starts the roller.
 
-As in ``ros2 launch roller_sim_ros sim.launch.py namespace:=roller_1 record:=trace.mcap``.
+As in ``ros2 launch roller_sim_ros sim.launch.py namespace:=roller_1 record:=trace.mcap scenario:=soft_to_stiff``.
 """
 
 from __future__ import annotations
@@ -10,6 +10,20 @@ from launch.actions import DeclareLaunchArgument, OpaqueFunction
 from launch.substitutions import LaunchConfiguration
 from launch_ros.actions import Node
 
+FLAGS = {
+    "record": "MCAP file to record to; empty: none.",
+    "scenario": "Scenario file, or the name of one that the package brings; empty: none.",
+    "clock": "real or sim; empty: real, unless a parameter says otherwise.",
+    "speed": "Simulated over real time, 0: as fast as possible; with clock:=sim.",
+}
+"""Arguments that are flags of ``roller-sim sim`` with a value."""
+
+SWITCHES = {
+    "lock_step": "Whether time stands still until a client steps it.",
+    "exit_at_end": "Whether the node ends when all that the scenario plans has been driven.",
+}
+"""Arguments that are flags without a value."""
+
 
 def _roller(context: LaunchContext) -> list[Node]:
     """Return the node; only arguments that were given are handed on, so that its own defaults hold."""
@@ -17,10 +31,15 @@ def _roller(context: LaunchContext) -> list[Node]:
     def given(name: str) -> str:
         return LaunchConfiguration(name).perform(context)
 
+    def yes(name: str) -> bool:
+        return given(name).lower() in ("true", "1")
+
     parameters: list[str | dict[str, bool]] = []
     if given("params_file"):
         parameters.append(given("params_file"))
-    parameters.append({"autostart": given("autostart").lower() in ("true", "1")})
+    parameters.append({"autostart": yes("autostart")})
+    flags = [word for name in FLAGS if given(name) for word in (f"--{name}", given(name))]
+    switches = [f"--{name.replace('_', '-')}" for name in SWITCHES if yes(name)]
     return [
         Node(
             package="roller_sim_ros",
@@ -28,7 +47,7 @@ def _roller(context: LaunchContext) -> list[Node]:
             name="roller_sim",
             namespace=given("namespace"),
             parameters=parameters,
-            arguments=["--record", given("record")] if given("record") else [],
+            arguments=[*flags, *switches],
             output="screen",
             emulate_tty=True,
         )
@@ -47,8 +66,13 @@ def generate_launch_description() -> LaunchDescription:
                 default_value="",
                 description="YAML file with ROS parameters; some are installed under share/config.",
             ),
-            DeclareLaunchArgument(
-                "record", default_value="", description="MCAP file to record to; empty: none."
+            *(
+                DeclareLaunchArgument(name, default_value="", description=text)
+                for name, text in FLAGS.items()
+            ),
+            *(
+                DeclareLaunchArgument(name, default_value="false", description=text)
+                for name, text in SWITCHES.items()
             ),
             DeclareLaunchArgument(
                 "autostart",

@@ -382,7 +382,17 @@ def test_launch_file_compiles_and_declares_its_arguments() -> None:
         and node.func.id == "DeclareLaunchArgument"
         and isinstance(node.args[0], ast.Constant)
     }
-    assert declared == {"namespace", "params_file", "record", "autostart"}
+    assert declared == {"namespace", "params_file", "autostart"}
+    flags, switches = (
+        set(ast.literal_eval(node.value))
+        for node in tree.body
+        if isinstance(node, ast.Assign) and isinstance(node.value, ast.Dict)
+    )
+    assert {"record", "scenario"} <= flags
+    # They are those of the command, which takes them as they are named.
+    text = (SOURCE / "commands" / "sim.py").read_text(encoding="utf-8")
+    for name in flags - {"record"} | switches:
+        assert f'"--{name.replace("_", "-")}"' in text
 
 
 def test_nothing_generated_is_tracked() -> None:
