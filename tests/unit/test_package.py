@@ -68,6 +68,7 @@ LAYERS = (
     "offline",
     "sweep",
     "estimate",
+    "score",
     "node",
     "commands",
 )

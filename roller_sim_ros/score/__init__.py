@@ -1,0 +1,1 @@
+"""The verdict on a compaction meter under test: its values beside the truth of the same trace."""
