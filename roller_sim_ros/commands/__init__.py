@@ -19,6 +19,7 @@ COMMANDS = {
     "sweep": "map what the roller settles on over a grid of parameters",
     "estimate": "estimate the ground from a trace: shear modulus and plastic parameter",
     "analyze": "evaluate a trace: gaps, meter values, plot and CSV",
+    "score": "judge a compaction meter by the truth beside it in a trace",
     "export": "write a trace as CSV, Parquet, MATLAB, sound or a map",
     "play": "republish a trace over ROS 2 at its original pace",
     "recover": "rewrite a trace that was cut off, and state what was lost",
