@@ -16,6 +16,7 @@ from roller_sim_ros.errors import RollerSimError
 COMMANDS = {
     "sim": "run the roller in real time as a ROS 2 node",
     "run": "run the roller without ROS, as fast as it goes",
+    "figures": "redraw the figures of the paper",
     "sweep": "map what the roller settles on over a grid of parameters",
     "estimate": "estimate the ground from a trace: shear modulus and plastic parameter",
     "analyze": "evaluate a trace: gaps, meter values, plot and CSV",

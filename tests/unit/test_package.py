@@ -68,6 +68,8 @@ LAYERS = (
     "offline",
     "sweep",
     "estimate",
+    "validation",
+    "figures",
     "score",
     "node",
     "commands",

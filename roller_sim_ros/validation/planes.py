@@ -1,0 +1,301 @@
+"""Statements on the plane of frequency and amplitude: Figures 16, 18 and 20."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.ndimage import label
+
+from roller_sim_ros.meters import Mode
+from roller_sim_ros.validation.statement import Finding, Statement, Verdict, percent
+from roller_sim_ros.validation.study import HIGH_M, LOW_M, Array, Study, amplitude_scan, plane
+
+if TYPE_CHECKING:
+    import xarray
+
+BAND_HZ = (15.0, 18.0)
+"""Where the paper sees an instability from the resonance."""
+
+_MM = 1e3
+
+
+def unstable(found: xarray.Dataset) -> NDArray[np.bool_]:
+    """Return where the motion does not repeat every revolution, shape (frequencies, amplitudes)."""
+    return np.asarray(
+        (found.period.values != 1) & (found["mode"].values != Mode.CONTINUOUS_CONTACT)
+    )
+
+
+def stable(found: xarray.Dataset) -> NDArray[np.bool_]:
+    """Return where the drum lifts off and the motion repeats every revolution."""
+    return np.asarray(found["mode"].values == Mode.PARTIAL_UPLIFT)
+
+
+def resonance(found: xarray.Dataset) -> Array:
+    """Return the frequency at which the drum lags 90° behind the eccentric, Hz, for each amplitude.
+
+    There the ground's stiffness as the meter k_s reads it is that of the drum's inertia, m_d ω²: below it the ground
+    governs, above it the mass. NaN where the plane has no such frequency; the first one where it has several.
+    """
+    frequency = found.frequency_hz.values
+    mass_kg = float(found.attrs["machine.drum_mass_kg"])
+    excess = found.k_s.values - (mass_kg * (2.0 * math.pi * frequency) ** 2)[:, np.newaxis]
+    at = np.full(found.sizes["amplitude_m"], np.nan)
+    for column in range(len(at)):
+        values = excess[:, column]
+        falls = np.flatnonzero((values[:-1] > 0.0) & (values[1:] <= 0.0))
+        if len(falls):
+            first = int(falls[0])
+            share = values[first] / (values[first] - values[first + 1])
+            at[column] = frequency[first] + share * (frequency[first + 1] - frequency[first])
+    return at
+
+
+def first_amplitudes(found: xarray.Dataset, periods: tuple[int, ...]) -> Array:
+    """Return the least amplitude, m, at which the motion has one of some periods; shape (frequencies,), NaN: none."""
+    has = np.isin(found.period.values, periods) & unstable(found)
+    amplitudes = found.amplitude_m.values
+    return np.array([amplitudes[int(np.argmax(row))] if row.any() else math.nan for row in has])
+
+
+def island(found: xarray.Dataset) -> NDArray[np.bool_]:
+    """Return the leftmost region of period 4 and more that has a gap to the chaos on its right."""
+    longer = unstable(found) & (found.period.values != 2)
+    parts, count = label(longer, structure=np.ones((3, 3)))
+    sizes = [int(np.count_nonzero(parts == number)) for number in range(1, count + 1)]
+    if not sizes:
+        return np.zeros_like(longer)
+    smallest = max(3, longer.size // 2000)
+    leftmost = sorted(
+        (int(np.flatnonzero((parts == number).any(axis=1))[0]), number)
+        for number in range(1, count + 1)
+        if sizes[number - 1] >= smallest
+    )
+    return np.asarray(parts == leftmost[0][1]) if leftmost else np.zeros_like(longer)
+
+
+def doubling(study: Study) -> Finding:
+    """What comes as the amplitude rises at the nominal frequency."""
+    amplitude, period = amplitude_scan(study)
+    firsts = {
+        name: next(
+            (float(a) for a, p in zip(amplitude, period, strict=True) if p in periods), math.nan
+        )
+        for name, periods in (("double jump", (2,)), ("quad jump", (4,)), ("chaos", (8, 0)))
+    }
+    two, four, none = firsts.values()
+    text = ", ".join(
+        f"{name} from {first * _MM:.2f} mm" if math.isfinite(first) else f"no {name}"
+        for name, first in firsts.items()
+    )
+    return Finding.of(
+        two < four < none,
+        f"{study.base.exciter.frequency_hz:g} Hz: {text}",
+        otherwise=Verdict.PARTLY if two < none else Verdict.FAILS,
+    )
+
+
+def doubling_everywhere(study: Study) -> Finding:
+    """Order in which double jump, quad jump and chaos come at each frequency of the plane."""
+    found = plane(study)
+    two, four, none = (first_amplitudes(found, periods) for periods in ((2,), (4,), (8, 0)))
+    chaotic = np.isfinite(none)
+    if not chaotic.any():
+        return Finding(Verdict.FAILS, "no chaos")
+    by_two = float(np.mean((two < none)[chaotic]))
+    by_four = float(np.mean(((two < four) & (four < none))[chaotic]))
+    return Finding.of(
+        by_four > 0.8,
+        f"of the frequencies with chaos {percent(by_two, 3)} come to it by double jump, {percent(by_four, 3)} by "
+        "double and quad jump; the others lie where regions end",
+        otherwise=Verdict.PARTLY if by_two > 0.5 else Verdict.FAILS,
+    )
+
+
+def settling(study: Study) -> Finding:
+    """Revolutions until the motion repeats to rounding."""
+    found = plane(study)
+    settled = found.period.values > 0
+    computed = found.revolutions_computed.values[settled]
+    stops = computed < study.revolutions
+    middle = float(np.median(computed[stops])) if stops.any() else math.nan
+    return Finding.of(
+        middle > 20.0,
+        f"half of the points that settle repeat to rounding after {middle:.0f} revolutions, "
+        f"{percent(float(np.mean(~stops)))} take more than {study.revolutions}",
+    )
+
+
+def resonance_falls(study: Study) -> Finding:
+    """Frequency of the resonance against amplitude."""
+    found = plane(study)
+    at, amplitude = resonance(found), found.amplitude_m.values * _MM
+    known = np.isfinite(at)
+    if np.count_nonzero(known) < 3:
+        return Finding(Verdict.FAILS, "no resonance between 15 and 40 Hz")
+    values = at[known]
+    within = amplitude[known][(values >= BAND_HZ[0]) & (values <= BAND_HZ[1])]
+    text = f"{values[0]:.1f} Hz at {amplitude[known][0]:.1f} mm to {values[-1]:.1f} Hz at {amplitude[known][-1]:.2f} mm"
+    if len(within):
+        text += f"; at 15–18 Hz from {within[0]:.2f} to {within[-1]:.2f} mm"
+    return Finding.of(bool(np.all(np.diff(values) < 0.05)), text)
+
+
+def instability_at_resonance(study: Study) -> Finding:
+    """What is unstable at 15 to 18 Hz, and where the island lies."""
+    found = plane(study)
+    frequency, amplitude = found.frequency_hz.values, found.amplitude_m.values * _MM
+    band = (frequency >= BAND_HZ[0]) & (frequency <= BAND_HZ[1])
+    inside = unstable(found)[band]
+    text = f"{percent(float(inside.mean()))} of the band does not repeat every revolution"
+    if inside.any():
+        rows, columns = np.nonzero(inside)
+        text += (
+            f", from {amplitude[columns.min()]:.2f} mm and {frequency[band][rows.min()]:.1f} Hz on "
+            f"(period {_periods(found.period.values[band][inside])})"
+        )
+    part = island(found)
+    if part.any():
+        rows, columns = np.nonzero(part)
+        text += (
+            f"; the leftmost region of longer periods begins at {frequency[rows.min()]:.1f} Hz, "
+            f"{amplitude[columns[rows.argmin()]]:.2f} mm"
+        )
+    share = float(inside.mean())
+    return Finding.of(share > 0.1, text, otherwise=Verdict.PARTLY if share > 0.0 else Verdict.FAILS)
+
+
+def edge_falls(study: Study) -> Finding:
+    """Lowest frequency of the instability against amplitude."""
+    found = plane(study)
+    frequency, amplitude = found.frequency_hz.values, found.amplitude_m.values * _MM
+    columns = np.flatnonzero(unstable(found).any(axis=0))
+    if len(columns) < 3:
+        return Finding(Verdict.FAILS, "no instability")
+    edge = frequency[[int(np.argmax(unstable(found)[:, column])) for column in columns]]
+    # Single points may lie off: one step of the grid is no rise.
+    step = 1.01 * (frequency[1] - frequency[0])
+    return Finding.of(
+        bool(np.all(np.diff(edge) <= step) and edge[-1] < edge[0]),
+        f"the instability's lowest frequency falls from {edge[0]:.1f} Hz at {amplitude[columns[0]]:.2f} mm to "
+        f"{edge[-1]:.1f} Hz at {amplitude[columns[-1]]:.2f} mm",
+        otherwise=Verdict.PARTLY if edge[-1] < edge[0] else Verdict.FAILS,
+    )
+
+
+def three_to_six(study: Study) -> Finding:
+    """Greatest soil force over the static one where the vibration is stable."""
+    found = plane(study)
+    ratio = found.force_ratio_mean.values
+    values = ratio[stable(found)]
+    if not len(values):
+        return Finding(Verdict.FAILS, "no stable vibration with lift-off")
+    low, high = np.percentile(values, (5.0, 95.0))
+    both = stable(found)[1:] & stable(found)[:-1]
+    steps = np.abs(np.diff(ratio, axis=0))[both]
+    text = (
+        f"{values.min():.1f} to {values.max():.1f}, 90 % of the plane's stable part with lift-off "
+        f"{low:.1f} to {high:.1f}; neighbours at most {steps.max(initial=0.0):.2f} apart"
+    )
+    top = 5.0 <= values.max() <= 7.0
+    return Finding.of(
+        bool(top and low >= 2.7), text, otherwise=Verdict.PARTLY if top else Verdict.FAILS
+    )
+
+
+def cmv_varies(study: Study) -> Finding:
+    """CMV against frequency on one ground."""
+    found = plane(study)
+    texts = []
+    for amplitude in (LOW_M, HIGH_M):
+        row = found.cmv.sel(amplitude_m=amplitude, method="nearest")
+        kept = row.values[
+            stable(found)[:, int(np.argmin(np.abs(found.amplitude_m.values - amplitude)))]
+        ]
+        texts.append(
+            f"{kept.min():.0f} to {kept.max():.0f} at {amplitude * _MM:g} mm" if len(kept) else ""
+        )
+    cmv = found.cmv.values[stable(found)]
+    return Finding.of(
+        bool(len(cmv)) and float(np.ptp(cmv)) > 10.0,
+        f"where the vibration is stable: {', '.join(text for text in texts if text)}",
+    )
+
+
+def _periods(values: NDArray[Any]) -> str:
+    """Return the periods that occur, as a reader wants them."""
+    names = {0: "none"}
+    found = sorted({int(value) for value in values}, key=lambda value: value or math.inf)
+    return ", ".join(names.get(value, str(value)) for value in found)
+
+
+MAP = (
+    "sweep --shear-modulus-mpa 80 --plastic-mm 0.5 --frequency-hz 15:40:101 "
+    "--amplitude-mm 0.1:2.5:101 --out map.nc"
+)
+
+STATEMENTS = (
+    Statement(
+        "doubling",
+        "Vibration stability, Figure 16",
+        "with more amplitude there come period doubling, quad jump, chaos",
+        doubling,
+        "figures 16",
+        sensitivity=True,
+    ),
+    Statement(
+        "doubling_everywhere",
+        "Vibration stability, Figure 16",
+        "the same at every frequency",
+        doubling_everywhere,
+        "figures 16",
+    ),
+    Statement(
+        "settling",
+        "Vibration stability",
+        "the vibration needs many periods to settle",
+        settling,
+        MAP,
+    ),
+    Statement(
+        "instability_at_resonance",
+        "Vibration stability, Figure 16",
+        "to the left, at 15–18 Hz, there is an instability from the drum/soil resonance",
+        instability_at_resonance,
+        "figures 16",
+        sensitivity=True,
+    ),
+    Statement(
+        "resonance_falls",
+        "Vibration stability",
+        "the frequency of this resonance falls with the amplitude",
+        resonance_falls,
+        "figures 16",
+        sensitivity=True,
+    ),
+    Statement(
+        "edge_falls",
+        "Vibration stability",
+        "the same of the instability itself",
+        edge_falls,
+        "figures 16",
+    ),
+    Statement(
+        "three_to_six",
+        "Figure 18",
+        "F_max/F_stat varies gradually from 3 to 6 in the area of stable vibration",
+        three_to_six,
+        "figures 18",
+        sensitivity=True,
+    ),
+    Statement(
+        "cmv_varies",
+        "Figure 20",
+        "CMV varies with frequency, all else constant",
+        cmv_varies,
+        "figures 20",
+    ),
+)
