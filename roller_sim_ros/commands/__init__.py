@@ -22,7 +22,9 @@ COMMANDS = {
     "analyze": "evaluate a trace: gaps, meter values, plot and CSV",
     "score": "judge a compaction meter by the truth beside it in a trace",
     "export": "write a trace as CSV, Parquet, MATLAB, sound or a map",
+    "fmu": "write the roller as a functional mock-up unit (FMI)",
     "play": "republish a trace over ROS 2 at its original pace",
+    "replay": "compute a trace again from what came into it, and compare bit by bit",
     "recover": "rewrite a trace that was cut off, and state what was lost",
 }
 """The commands and a line on each."""

@@ -14,7 +14,8 @@ from roller_sim_ros.session import Block
 from roller_sim_ros.traces.metadata import run_metadata
 from roller_sim_ros.traces.registration import register_all
 from roller_sim_ros.traces.writer import TraceWriter
-from roller_sim_ros.wire.messages import parameter_event
+from roller_sim_ros.wire.messages import Message, parameter_event
+from roller_sim_ros.wire.topics import TOPICS
 
 
 @contextmanager
@@ -54,6 +55,9 @@ def record(
 ) -> Iterator[Step]:
     """Yield what steps an emulator block by block and records all of its messages, from its start.
 
+    A topic is in the trace when the first message of it comes: what nobody publishes here, as diagnostics, is not
+    announced as if it had been listened to.
+
     Parameters
     ----------
     emulator : Emulator
@@ -70,12 +74,19 @@ def record(
     """
     configuration, start_ns = emulator.session.configuration, emulator.start_ns
     samples = configuration.pacing.samples_per_message
+    known = {topic.name: topic for topic in TOPICS}
+    names: dict[str, str] = {}
     with TraceWriter(
         path, metadata, flush_period_s=configuration.recording.flush_period_s
     ) as trace:
-        names = register_all(trace, configuration.pacing)
-        declared = parameter_event(f"/{NODE}", configuration.flat(), start_ns)
-        trace.put(names[declared.topic], declared.data, start_ns, start_ns)
+
+        def put(message: Message, time_ns: int) -> None:
+            if message.topic not in names:
+                topic = known[message.topic]
+                names.update(register_all(trace, configuration.pacing, topics=[topic]))
+            trace.put(names[message.topic], message.data, time_ns, time_ns)
+
+        put(parameter_event(f"/{NODE}", configuration.flat(), start_ns), start_ns)
 
         def step() -> Block:
             messages = emulator.advance(samples)
@@ -84,7 +95,7 @@ def record(
             end_s = block.time_s + len(block) * block.sample_period_s
             end_ns = start_ns + round(end_s * 1e9)
             for message in messages:
-                trace.put(names[message.topic], message.data, end_ns, end_ns)
+                put(message, end_ns)
             return block
 
         yield step
