@@ -13,7 +13,15 @@ Function = TypeVar("Function", bound=Callable[..., Any])
 
 DISABLE_VARIABLE = "ROLLER_SIM_NO_JIT"
 CACHE_VARIABLE = "NUMBA_CACHE_DIR"
-KERNEL_FOLDERS = (".", "exciter", "drum_soil", "half_space", "sensors/kernels", "sweep")
+KERNEL_FOLDERS = (
+    ".",
+    "exciter",
+    "drum_soil",
+    "half_space",
+    "sensors/kernels",
+    "meters/kernels",
+    "sweep",
+)
 """Where compiled functions may live."""
 
 if os.environ.get(DISABLE_VARIABLE):

@@ -15,6 +15,7 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
+from roller_sim_ros.meters import kernels
 from roller_sim_ros.meters.drum import Drum, DrumMotion
 from roller_sim_ros.meters.flight import lifts
 from roller_sim_ros.meters.harmonics import HarmonicsWindow
@@ -141,6 +142,7 @@ class CompactionMeter:
         self._phase_rad = 0.0
         self._gap = False
         self._clipped_before = 0
+        kernels.warm_up()
 
     def feed(
         self,
@@ -176,9 +178,7 @@ class CompactionMeter:
         self._amplitude_m = amplitude_m
         timing = Timing(sample_period_s, excitation_hz, phase_increment_rad)
         values = []
-        for item in self._collector.feed(
-            first_sample, np.reshape(vertical, (1, -1)), timing, eccentric_phase_rad
-        ):
+        for item in self._collector.feed(first_sample, [vertical], timing, eccentric_phase_rad):
             if isinstance(item, Loss):
                 self._clear()
                 self._gap = True

@@ -18,13 +18,14 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, lru_cache
 
 import numpy as np
 import numpy.typing as npt
 from numpy.typing import NDArray
 
 from roller_sim_ros.exciter import DIRECTIONS
+from roller_sim_ros.meters import kernels
 from roller_sim_ros.parameters import SAMPLES_PER_REVOLUTION, Exciter, Machine
 
 Number = float | NDArray[np.float64]
@@ -133,43 +134,73 @@ class DrumMotion:
         moment = self.drum.mass_kg * np.asarray(self.amplitude_m, dtype=np.float64)
         return np.asarray(moment * self.omega**2 * self.drum.vertical_share, dtype=np.float64)
 
-    @property
-    def phase(self) -> NDArray[np.float64]:
-        """Phase of the eccentric at the samples of the first revolution, and of each, rad."""
-        step = 2.0 * math.pi / self.samples_per_revolution
-        return np.asarray(self.phase_rad + step * np.arange(self.samples_per_revolution))
-
     @cached_property
     def fundamental(self) -> NDArray[np.complex128]:
         """C_1, m/s², shape (...): the fundamental of the acceleration is Re C_1 exp(iφ)."""
-        mean_revolution = self._by_revolutions(self.vertical).mean(axis=-2, dtype=np.float64)
-        turns = np.exp(-1j * self.phase) * (2.0 / self.samples_per_revolution)
-        # Not a matrix product: BLAS would start threads for it, and round differently with the number of motions.
-        return np.asarray((mean_revolution * turns).sum(axis=-1))
+        out = np.empty(math.prod(self._shape), dtype=np.complex128)
+        kernels.fundamentals(
+            self._motions, *eccentric(self.phase_rad, self.samples_per_revolution), out
+        )
+        return out.reshape(self._shape)
 
     @cached_property
     def soil_force(self) -> NDArray[np.float64]:
         """F_s on the drum, N, up positive, shape (..., samples)."""
-        vertical = np.asarray(self.vertical, dtype=np.float64)
-        inertia = _column(self.drum.mass_kg) * (vertical - vertical.mean(axis=-1, keepdims=True))
-        rest = _column(self.drum.static_load_n) - _column(self.force_amplitude) * np.sin(self.phase)
-        force = self._by_revolutions(inertia) + rest[..., np.newaxis, :]
-        return np.asarray(force.reshape(inertia.shape), dtype=np.float64)
+        drum, shape = self.drum, self._shape
+        sine, _ = eccentric(self.phase_rad, self.samples_per_revolution)
+        out = np.empty_like(self._motions)
+        kernels.soil_forces(
+            self._motions,
+            one_each(drum.mass_kg, shape),
+            one_each(drum.static_load_n, shape),
+            one_each(self.force_amplitude, shape),
+            sine,
+            out,
+        )
+        return out.reshape(self.vertical.shape)
 
     @cached_property
     def height(self) -> NDArray[np.float64]:
         """Height of the drum over its mean, m, up positive, shape (..., samples)."""
-        spectrum = np.fft.rfft(np.asarray(self.vertical, dtype=np.float64))
-        spectrum[..., 0] = 0.0
-        orders = np.arange(1, spectrum.shape[-1]) / self.revolutions
-        spectrum[..., 1:] /= -((_column(self.omega) * orders) ** 2)
-        return np.asarray(np.fft.irfft(spectrum, self.vertical.shape[-1]))
+        samples = self.vertical.shape[-1]
+        spectrum = np.fft.rfft(self._motions)
+        spectrum *= _twice_integrated(samples, self.revolutions)
+        height = np.fft.irfft(spectrum, samples)
+        height /= one_each(self.omega**2, self._shape)[:, np.newaxis]
+        return height.reshape(self.vertical.shape)
 
-    def _by_revolutions(self, values: NDArray[np.floating]) -> NDArray[np.floating]:
-        """Return the samples in one row for each revolution."""
-        return values.reshape(*values.shape[:-1], -1, self.samples_per_revolution)
+    @property
+    def _shape(self) -> tuple[int, ...]:
+        return self.vertical.shape[:-1]
+
+    @cached_property
+    def _motions(self) -> NDArray[np.float64]:
+        """The motions as the kernels take them, in rows."""
+        vertical = np.ascontiguousarray(self.vertical, dtype=np.float64)
+        return vertical.reshape(-1, vertical.shape[-1])
 
 
-def _column(value: npt.ArrayLike) -> NDArray[np.float64]:
-    """Return a number for each motion as one for each of its samples."""
-    return np.asarray(value, dtype=np.float64)[..., np.newaxis]
+def one_each(value: npt.ArrayLike, shape: tuple[int, ...]) -> NDArray[np.float64]:
+    """Return a number, or one for each motion of some shape, as the kernels take them: one for each, in a row."""
+    out = np.empty(shape)
+    out[...] = value
+    return out.reshape(-1)
+
+
+@lru_cache(maxsize=8)
+def eccentric(
+    phase_rad: float, samples_per_revolution: int
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Return sine and cosine of the eccentric's phase at the samples of a revolution."""
+    step = 2.0 * math.pi / samples_per_revolution
+    phase = phase_rad + step * np.arange(samples_per_revolution)
+    return np.sin(phase), np.cos(phase)
+
+
+@lru_cache(maxsize=8)
+def _twice_integrated(samples: int, revolutions: int) -> NDArray[np.float64]:
+    """Return what integrating twice makes of each order in a window: −1/order², 0 for the mean."""
+    orders = np.arange(samples // 2 + 1) / revolutions
+    factors = np.zeros(len(orders))
+    factors[1:] = -1.0 / orders[1:] ** 2
+    return factors

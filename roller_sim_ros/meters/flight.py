@@ -25,10 +25,12 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from functools import cache
 
 import numpy as np
 from numpy.typing import NDArray
 
+from roller_sim_ros.meters import kernels
 from roller_sim_ros.parameters import GRAVITY_M_S2
 
 GRAVITY_SHARE = 0.95
@@ -68,50 +70,21 @@ def lifts(repetitions: NDArray[np.float64], samples_per_revolution: int) -> bool
     samples_per_revolution : int
         N.
     """
-    motion = repetitions.mean(axis=0)
-    motion -= motion.mean()
-    coarse = _fall(motion, COARSE, samples_per_revolution)
-    if coarse.min() > -GRAVITY_SHARE * GRAVITY_M_S2:
-        return False
-    fine = _fall(motion, FINE, samples_per_revolution)
-    if _has_level(fine, FINE, samples_per_revolution):
-        return True
-    if _has_level(coarse, COARSE, samples_per_revolution):
-        return True
-    change = repetitions[-1] - repetitions[-2]
-    noise = np.abs(_fall(change, FINE, samples_per_revolution)).max()
-    return False if noise < FINE.tolerance * GRAVITY_M_S2 else None
+    found = kernels.lifting(
+        np.ascontiguousarray(repetitions, dtype=np.float64),
+        _in_samples(COARSE, samples_per_revolution),
+        _in_samples(FINE, samples_per_revolution),
+        -GRAVITY_SHARE * GRAVITY_M_S2,
+        FINE.tolerance * GRAVITY_M_S2,
+        np.empty((2, repetitions.shape[1])),
+    )
+    return None if found == kernels.CANNOT_TELL else found == kernels.LIFTS
 
 
-def _fall(
-    motion: NDArray[np.float64], test: FlightTest, samples_per_revolution: int
-) -> NDArray[np.float64]:
-    """Return c_n of a motion taken as periodic, shape as given, m/s²."""
+@cache
+def _in_samples(test: FlightTest, samples_per_revolution: int) -> tuple[int, float, int, float]:
+    """Return h and the cosine of its angle, length and tolerance as the kernel takes them."""
     step = max(1, round(test.step * samples_per_revolution))
-    cosine = math.cos(2.0 * math.pi * step / samples_per_revolution)
-    around = np.concatenate([motion[-step:], motion, motion[:step]])
-    fall: NDArray[np.float64] = around[2 * step :] + around[: -2 * step]
-    fall -= 2.0 * cosine * motion
-    fall /= 2.0 * (1.0 - cosine)
-    return fall
-
-
-def _has_level(fall: NDArray[np.float64], test: FlightTest, samples_per_revolution: int) -> bool:
-    """Whether c_n has a level stretch at or below −g."""
     length = max(3, round(test.length * samples_per_revolution))
-    around = np.concatenate([fall, fall[: length - 1]])
-    highest = _over_stretches(np.maximum, around, length)
-    flat = highest - _over_stretches(np.minimum, around, length) <= -test.tolerance * highest
-    return bool(np.any(flat & (highest <= -GRAVITY_SHARE * GRAVITY_M_S2)))
-
-
-def _over_stretches(
-    extreme: np.ufunc, values: NDArray[np.float64], length: int
-) -> NDArray[np.float64]:
-    """Return the extreme of each `length` values in a row, by doubling the length."""
-    reached = 1
-    while reached < length:
-        shift = min(reached, length - reached)
-        values = extreme(values[:-shift], values[shift:])
-        reached += shift
-    return values
+    angle = 2.0 * math.pi * step / samples_per_revolution
+    return step, math.cos(angle), length, test.tolerance

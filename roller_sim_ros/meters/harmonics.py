@@ -20,6 +20,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from roller_sim_ros.meters import kernels
 from roller_sim_ros.parameters import SAMPLES_PER_REVOLUTION
 
 METER_ORDERS = (0.5, 1.0, 2.0)
@@ -94,9 +95,10 @@ class HarmonicsWindow:
         self.window_revolutions = window_revolutions
         self.orders = tuple(float(order) for order in orders)
         self.samples_per_revolution = samples_per_revolution
-        self._basis = _unit_vectors(
-            np.outer(self.orders, np.arange(samples_per_revolution) / samples_per_revolution)
-        )
+        turns = np.outer(np.arange(samples_per_revolution) / samples_per_revolution, self.orders)
+        # Cosines of all orders, then sines, side by side for each sample.
+        self._waves = np.concatenate(_unit_vectors(turns), axis=1)
+        self._products = np.zeros(2 * len(self.orders))
         self._turns = _unit_vectors(np.outer(np.arange(window_revolutions), self.orders))
         self._scale = 2.0 / (samples_per_revolution * window_revolutions)
         # Every sum is stored twice, a window apart, so that the window is always one contiguous view.
@@ -127,8 +129,8 @@ class HarmonicsWindow:
         phase_rad : float
             Phase of the eccentric at the first sample.
         """
-        products = self._basis * revolution
-        real, imaginary = np.add.reduce(products, axis=2)
+        kernels.project(self._waves, np.ascontiguousarray(revolution), self._products)
+        real, imaginary = self._products.reshape(2, -1)
         turn_real, turn_imaginary = self._turns_at(index, phase_rad)
         slot = self._next
         # (real − i imaginary) × (turn_real − i turn_imaginary)

@@ -14,10 +14,10 @@ import numpy as np
 import numpy.typing as npt
 from numpy.typing import NDArray
 
-CONSTANT = 1.8864
+from roller_sim_ros.meters import kernels
+from roller_sim_ros.meters.kernels.line_contact import CONSTANT
 
-_ROUNDS = 6
-"""Newton's rounds, of which five suffice from 1 kPa to 10 GPa."""
+_modulus = np.vectorize(kernels.modulus, otypes=[np.float64])
 
 
 def approach(
@@ -79,16 +79,6 @@ def modulus(
         E, Pa; NaN where no E has that slope (it is not positive, or the contact would be wider than the
         cylinder is long).
     """
-    slope, length = np.asarray(slope_m_n, dtype=np.float64), np.asarray(length_m)
-    plane = 1.0 - poisson_ratio**2
-    scale = 2.0 / math.pi * plane / length
-    width = 16.0 / math.pi * np.asarray(radius_m) * plane / length
-    rest = CONSTANT + np.log(length) - 0.5 * np.log(width) - 0.5 * np.asarray(force_log_slope)
-    with np.errstate(invalid="ignore", divide="ignore"):
-        level = rest + 0.5 * np.log(scale / slope)
-        bracket = level + 0.5 * np.log(2.0 * np.maximum(level, 1.0))
-        for _ in range(_ROUNDS):
-            bracket -= (bracket - 0.5 * np.log(bracket) - level) / (1.0 - 0.5 / bracket)
-        found = scale * bracket / slope
-    # The least that x − ½ ln x can be is what it is at ½.
-    return np.where((slope > 0.0) & (level > 0.5 - 0.5 * math.log(0.5)), found, np.nan)
+    return np.asarray(
+        _modulus(slope_m_n, force_log_slope, radius_m, length_m, poisson_ratio), dtype=np.float64
+    )

@@ -12,6 +12,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from roller_sim_ros.meters import kernels
 from roller_sim_ros.parameters import SAMPLES_PER_REVOLUTION
 
 CANDIDATES = (1, 2, 4, 8)
@@ -77,11 +78,10 @@ class PeriodWindow:
     ) -> None:
         self.window_revolutions = window_revolutions
         self.tolerance = tolerance
-        self._candidates = tuple(p for p in CANDIDATES if 2 * p <= window_revolutions)
+        self._back = np.array([p for p in CANDIDATES if 2 * p <= window_revolutions], np.int64)
         self._revolutions = np.zeros((window_revolutions, samples_per_revolution))
-        self._changes = np.zeros((len(self._candidates), window_revolutions))
+        self._changes = np.zeros((len(self._back), window_revolutions))
         self._extremes = np.zeros((2, window_revolutions))
-        self._back = np.array(self._candidates, dtype=np.int64)
         self._pushed = 0
 
     def clear(self) -> None:
@@ -96,11 +96,14 @@ class PeriodWindow:
     def push(self, revolution: NDArray[np.float64]) -> None:
         """Add the newest revolution, shape (samples_per_revolution,), m/s²; drop the oldest."""
         slot = self._pushed % self.window_revolutions
-        earlier = self._revolutions[(slot - self._back) % self.window_revolutions]
-        self._changes[:, slot] = np.abs(revolution - earlier).max(axis=1, initial=0.0)
-        self._extremes[0, slot] = revolution.max()
-        self._extremes[1, slot] = revolution.min()
-        self._revolutions[slot] = revolution
+        kernels.note_changes(
+            self._revolutions,
+            self._changes,
+            self._extremes,
+            slot,
+            self._back,
+            np.ascontiguousarray(revolution),
+        )
         self._pushed += 1
 
     def repetitions(self, period: int) -> NDArray[np.float64]:
@@ -121,12 +124,10 @@ class PeriodWindow:
         """Return 1, 2, 4, 8, `NO_PERIOD`, or None when the window is not full or too short."""
         if not self.full:
             return None
-        mean = float(self._revolutions.mean())
-        peak = max(float(self._extremes[0].max()) - mean, mean - float(self._extremes[1].min()))
-        newest = self._pushed - 1
-        for row, candidate in enumerate(self._candidates):
-            compared = newest - np.arange(self.window_revolutions - candidate)
-            changes = self._changes[row, compared % self.window_revolutions]
-            if changes.max() <= self.tolerance * peak:
-                return candidate
-        return NO_PERIOD if len(self._candidates) == len(CANDIDATES) else None
+        newest = (self._pushed - 1) % self.window_revolutions
+        found = kernels.first_period(
+            self._revolutions, self._changes, self._extremes, newest, self._back, self.tolerance
+        )
+        if found:
+            return int(found)
+        return NO_PERIOD if len(self._back) == len(CANDIDATES) else None

@@ -7,7 +7,9 @@ so a lost block, a repeated one and one that comes too late are all seen.
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -25,8 +27,7 @@ SAME_PHASE_SAMPLES = 1e-3
 """Phases that differ by less, in samples, are the same."""
 
 
-@dataclass(frozen=True)
-class Timing:
+class Timing(NamedTuple):
     """What the samples of a block share."""
 
     sample_period_s: float
@@ -93,11 +94,13 @@ class RevolutionCollector:
         self._uniform = False
         self._timing: Timing | None = None
         self._phase = 0.0
+        self._last_timing: Timing | None = None
+        self._advance = 1.0
 
     def feed(
         self,
         first_sample: int,
-        samples: NDArray[np.floating],
+        samples: Sequence[NDArray[np.generic]],
         timing: Timing,
         phase_rad: float,
     ) -> list[Revolution | Loss]:
@@ -109,8 +112,8 @@ class RevolutionCollector:
         ----------
         first_sample : int
             Index of the first sample.
-        samples : ndarray, shape (channels, n)
-            The samples.
+        samples : sequence of ndarray, shape (n,)
+            The samples of each channel.
         timing : Timing
             What they share.
         phase_rad : float
@@ -118,7 +121,7 @@ class RevolutionCollector:
         """
         found: list[Revolution | Loss] = []
         start = first_sample
-        end = first_sample + samples.shape[1]
+        end = first_sample + len(samples[0])
         if end == start:
             return found
         if self._expected is None:
@@ -130,37 +133,40 @@ class RevolutionCollector:
             start = self._expected
             if end <= start:
                 return found
+        if timing != self._last_timing:
+            self._last_timing = timing
+            self._advance = self._advance_of(timing)
+        count = self._count
         while start < end:
-            offset = start % self._count
-            stop = min(end, start - offset + self._count)
-            phase = (phase_rad / self._step + (start - first_sample) * self._advance(timing)) % (
-                self._count
-            )
+            offset = start % count
+            stop = min(end, start - offset + count)
+            phase = (phase_rad / self._step + (start - first_sample) * self._advance) % count
             if offset == 0:
                 self._whole = True
                 self._uniform = True
                 self._timing = timing
-                self._phase = round(phase * PHASE_GRID) / PHASE_GRID % self._count
+                self._phase = round(phase * PHASE_GRID) / PHASE_GRID % count
             elif self._whole:
                 self._uniform = self._uniform and self._continues(timing, phase, offset)
             if self._whole:
-                self._samples[:, offset : offset + stop - start] = samples[
-                    :, start - first_sample : stop - first_sample
-                ]
-                if stop % self._count == 0:
-                    found.append(self._revolution(stop - self._count, timing))
+                for row, channel in zip(self._samples, samples, strict=True):
+                    row[offset : offset + stop - start] = channel[
+                        start - first_sample : stop - first_sample
+                    ]
+                if stop % count == 0:
+                    found.append(self._revolution(stop - count, timing))
             start = stop
         self._expected = end
         return found
 
-    def _advance(self, timing: Timing) -> float:
+    def _advance_of(self, timing: Timing) -> float:
         """Return the phase increment over that of N samples per revolution, exactly 1 when it is that."""
         advance = timing.phase_increment_rad / self._step
         return 1.0 if abs(advance - 1.0) < SYNCHRONOUS else advance
 
     def _continues(self, timing: Timing, phase: float, offset: int) -> bool:
         """Whether a block goes on with the revolution as it was begun."""
-        apart = (phase - self._phase - offset * self._advance(timing)) % self._count
+        apart = (phase - self._phase - offset * self._advance) % self._count
         return timing == self._timing and min(apart, self._count - apart) < SAME_PHASE_SAMPLES
 
     def _revolution(self, first_sample: int, timing: Timing) -> Revolution:
@@ -169,5 +175,5 @@ class RevolutionCollector:
             samples=self._samples.copy(),
             excitation_hz=timing.excitation_hz,
             phase_rad=self._phase * self._step,
-            synchronous=self._uniform and self._advance(timing) == 1.0 and timing.excitation_hz > 0,
+            synchronous=self._uniform and self._advance == 1.0 and timing.excitation_hz > 0,
         )

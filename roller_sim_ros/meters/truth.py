@@ -88,7 +88,7 @@ class TruthMeter:
 
     def feed(self, block: Block) -> TruthValue:
         """Take one block and return the values at the end of the last completed revolution."""
-        channels = np.stack([block.acceleration_vertical, block.soil_force, block.contact_state])
+        channels = (block.acceleration_vertical, block.soil_force, block.contact_state)
         timing = Timing(block.sample_period_s, block.excitation_hz, block.phase_increment_rad)
         for item in self._collector.feed(
             block.first_sample, channels, timing, block.eccentric_phase_rad

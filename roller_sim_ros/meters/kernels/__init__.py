@@ -1,0 +1,40 @@
+"""Loops over samples that numpy would need dozens of calls for; compiled."""
+
+from functools import cache
+
+import numpy as np
+
+from roller_sim_ros.meters.kernels.branch import mean_modulus
+from roller_sim_ros.meters.kernels.fall import CANNOT_TELL, LIFTS, lifting
+from roller_sim_ros.meters.kernels.fundamental import fundamentals, soil_forces
+from roller_sim_ros.meters.kernels.line_contact import modulus
+from roller_sim_ros.meters.kernels.orders import project
+from roller_sim_ros.meters.kernels.repetition import first_period, note_changes
+
+__all__ = [
+    "CANNOT_TELL",
+    "LIFTS",
+    "first_period",
+    "fundamentals",
+    "lifting",
+    "mean_modulus",
+    "modulus",
+    "note_changes",
+    "project",
+    "soil_forces",
+    "warm_up",
+]
+
+
+@cache
+def warm_up() -> None:
+    """Compile the loops, so that the first full window of a run is not late."""
+    one, few, index = np.zeros(1), np.zeros((1, 4)), np.zeros(1, dtype=np.int64)
+    project(np.zeros((4, 2)), np.zeros(4), np.zeros(2))
+    note_changes(few, few, np.zeros((2, 1)), 0, index, np.zeros(4))
+    first_period(few, few, np.zeros((2, 1)), 0, index, 0.01)
+    lifting(np.ones((2, 8)), (1, 0.7, 3, 0.1), (1, 0.7, 3, 0.1), -9.0, 0.1, np.zeros((2, 8)))
+    modulus(1e-9, 12.0, 0.75, 2.1, 0.25)
+    fundamentals(few, np.zeros(4), np.zeros(4), np.zeros(1, dtype=np.complex128))
+    soil_forces(few, one, one, one, np.zeros(4), few)
+    mean_modulus(few, few, one, one, one, 0.25, 2, 0.4, 0.9, one)
