@@ -29,11 +29,11 @@ class Kind(IntEnum):
         return self.name.lower()
 
 
-def _empty() -> NDArray[np.int32]:
-    return np.zeros(0, dtype=np.int32)
+_NO_COUNTS = np.zeros(0, dtype=np.int32)
+_NONE_CLIPPED = np.zeros(0, dtype=np.uint8)
 
 
-@dataclass(frozen=True)
+@dataclass(eq=False)
 class Reading:
     """Samples that a sensor delivers together: equidistant, at one excitation frequency; x forward, z up.
 
@@ -78,9 +78,9 @@ class Reading:
     phase_increment_rad: float
     revolution: int
     scale: float = 0.0
-    raw_vertical: NDArray[np.int32] = field(default_factory=_empty)
-    raw_horizontal: NDArray[np.int32] = field(default_factory=_empty)
-    clipped: NDArray[np.uint8] = field(default_factory=lambda: np.zeros(0, dtype=np.uint8))
+    raw_vertical: NDArray[np.int32] = field(default_factory=lambda: _NO_COUNTS)
+    raw_horizontal: NDArray[np.int32] = field(default_factory=lambda: _NO_COUNTS)
+    clipped: NDArray[np.uint8] = field(default_factory=lambda: _NONE_CLIPPED)
     sensor_time_s: float = 0.0
 
     def __len__(self) -> int:

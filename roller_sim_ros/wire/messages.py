@@ -126,7 +126,7 @@ def drum_acceleration(reading: Reading, start_ns: int) -> Message:
         reading.scale,
         reading.raw_vertical,
         reading.raw_horizontal,
-        int(reading.clipped.sum()),
+        int(reading.clipped.sum()) if len(reading.clipped) else 0,
         reading.sensor_time_s,
     )
 

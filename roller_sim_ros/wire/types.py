@@ -73,6 +73,7 @@ def typestore() -> Typestore:
     return store
 
 
+@cache
 def message_class(type_name: str) -> Any:
     """Return the class of a message type of the store: fields are given in order or by name."""
     return typestore().types[type_name]
