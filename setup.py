@@ -40,7 +40,7 @@ setup(
         shared("scenarios", "*.schema.json"),
     ],
     install_requires=[line for line in requirements if line and not line.startswith("#")],
-    # Large, and needed for one format of `roller-sim export` alone.
-    extras_require={"parquet": ["pyarrow>=10"]},
+    # Needed for one format of `roller-sim export` alone, which is large, and for `roller-sim fmu`.
+    extras_require={"parquet": ["pyarrow>=10"], "fmu": ["pythonfmu>=0.6"]},
     entry_points={"console_scripts": ["roller-sim = roller_sim_ros.commands:main"]},
 )

@@ -63,6 +63,7 @@ LAYERS = (
     "wire",
     "emulation",
     "traces",
+    "fmu",
     "analysis",
     "export",
     "offline",
