@@ -9,6 +9,7 @@ from enum import Enum
 from typing import Any
 
 from roller_sim_ros.errors import RollerSimError
+from roller_sim_ros.parameters.quantity import shown
 
 
 class InputKind(Enum):
@@ -72,7 +73,7 @@ def input_of(message: Any) -> Input:
         kind = InputKind(message.kind)
     except (ValueError, RecursionError):
         raise InputError(
-            f"the input {message.kind!s:.40} at sample {message.sample} is not understood by this version"
+            f"the input {shown(message.kind)} at sample {message.sample} is not understood by this version"
         ) from None
     if not isinstance(arguments, dict):
         raise InputError(f"the input {kind.value} at sample {message.sample} has no arguments")

@@ -112,7 +112,7 @@ class Replay:
             for topic in topics.TOPICS
             if topic not in NOT_OF_A_RUN and topic.resolved(prefix) in reader.topics
         }
-        if topics.TRUTH not in self._names.values():
+        if not self._messages_of(topics.TRUTH):
             raise ReplayError(
                 f"{reader.path}: holds no {topics.TRUTH.resolved(prefix)}, which says how the run was cut into blocks"
             )
@@ -141,7 +141,9 @@ class Replay:
                 if item.kind in (InputKind.BEGIN, InputKind.RESTORE):
                     if run is not None and run.end():
                         return
-                    run = _Run(begun(item), self._alignments, self._listened)
+                    # Per-sample messages are there only while someone listens.
+                    imu = self._messages_of(topics.IMU) > 0
+                    run = _Run(begun(item), self._alignments, imu)
                     self.runs.append(run.result)
                 elif run is not None:
                     run.inputs.append(item)
@@ -162,12 +164,12 @@ class Replay:
         run.end()
         progress(1.0)
 
-    @property
-    def _listened(self) -> bool:
-        """Whether someone listened to the per-sample messages."""
-        return any(
-            topic is topics.IMU and self._reader.topics[name].messages
-            for name, topic in self._names.items()
+    def _messages_of(self, topic: topics.Topic) -> int:
+        """Return how many messages of a topic the trace holds."""
+        return sum(
+            self._reader.topics[name].messages
+            for name, known in self._names.items()
+            if known is topic
         )
 
 
