@@ -330,8 +330,6 @@ def test_runs_one_after_the_other_and_states_in_between(
             put(first.advance(32))
             put(first.imu_messages())
         state = save(first)
-        from roller_sim_ros.wire import messages as wire
-
         put([exciter_state(idle, START_NS, Refusal.NOT_ACTIVE, "not active")])
         for emulator in (plain_emulator(), restore(state, told=True)):
             for block in range(60):
