@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import NoReturn
 
 from roller_sim_ros.commands.flags import add_parameter_flags, given_values
-from roller_sim_ros.commands.numbers import whole
+from roller_sim_ros.commands.numbers import not_negative, whole
 from roller_sim_ros.commands.output import write_json
 from roller_sim_ros.commands.progress import progress
 from roller_sim_ros.commands.soil_flags import machine_values
@@ -75,6 +75,7 @@ def main(argv: list[str] | None = None) -> int:
         window_revolutions=arguments.window_revolutions,
         step_revolutions=min(arguments.step_revolutions, arguments.window_revolutions),
         tacho=arguments.tacho,
+        sensor_bandwidth_hz=arguments.sensor_bandwidth_hz,
         given={name: value for name, value in given.items() if name in KNOWN},
         amplitude_m=_number(flags.get("exciter.amplitude_m")),
         machine_given=arguments.machine is not None or arguments.params is not None,
@@ -153,6 +154,13 @@ def _parser() -> argparse.ArgumentParser:
         "--tacho",
         action="store_true",
         help="take the phase from the pulses on tacho, not from what DrumAcceleration tells",
+    )
+    parser.add_argument(
+        "--sensor-bandwidth-hz",
+        metavar="HZ",
+        type=not_negative,
+        default=0.0,
+        help="frequency of −3 dB of the sensor's second-order Butterworth low-pass; 0: none (default: 0)",
     )
     parser.add_argument(
         "--progress",

@@ -24,6 +24,7 @@ def estimate(
     phase_rad: NDArray[np.floating] | None = None,
     window_revolutions: int = WINDOW_REVOLUTIONS,
     step_revolutions: int = STEP_REVOLUTIONS,
+    sensor_bandwidth_hz: float = 0.0,
 ) -> list[WindowEstimate]:
     """Estimate the ground in windows that slide over the samples of a run at one frequency and amplitude.
 
@@ -39,6 +40,8 @@ def estimate(
         sine. When left out there are 128 samples per revolution from phase zero on.
     window_revolutions, step_revolutions : int
         Revolutions in a window, and from one to the next.
+    sensor_bandwidth_hz : float
+        Frequency of −3 dB of the sensor's second-order Butterworth low-pass; 0: none.
 
     Returns
     -------
@@ -82,7 +85,10 @@ def estimate(
     if not found:
         nothing = Turn(0.0, exciter.frequency_hz, exciter.amplitude_m, samples, follows=False)
         found = [Window((nothing,), whole=False)]
-    return [estimate_turns(window, known)[0] for window in found]
+    return [
+        estimate_turns(window, known, sensor_bandwidth_hz=sensor_bandwidth_hz)[0]
+        for window in found
+    ]
 
 
 def check_window(window_revolutions: int, step_revolutions: int) -> None:

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.optimize import least_squares
 
+from roller_sim_ros.estimate.low_pass import ComplexArray, passed
 from roller_sim_ros.estimate.orbit import Orbit
 from roller_sim_ros.estimate.soil_map import LEAST, MOST
 from roller_sim_ros.estimate.waveform import Waveform
@@ -15,14 +16,18 @@ from roller_sim_ros.parameters import Configuration
 
 Array = NDArray[np.float64]
 
-STARTS = (1.0, 1.4, 0.7)
-"""Amplitudes to start from over the known one, tried in turn until one leads to the measured motion."""
+AROUND = [np.array([g, p]) for g in (-0.05, 0.0, 0.05) for p in (-0.09, 0.0, 0.09) if g or p]
+"""Grounds in ln G and ln p around one at which a least-squares step ended without the measured motion: the motion's
+dependence on the ground has kinks."""
 
-FOUND = 0.02
+OTHER_STARTS = (1.4, 0.7)
+"""Amplitudes to start from over the known one where that leads to another motion: the drum may have several."""
+
+FOUND = 0.002
 """Share of the measured waveform's size up to which what is left means that this is the motion."""
 
-FOUND_SIGMAS = 3.0
-"""The same in standard deviations of the waveform's noise."""
+FOUND_SIGMAS = 1.1
+"""Standard deviations of the waveform's noise that are left besides."""
 
 DIFFERENCE = 1e-3
 """Step of ln G and ln p for the derivatives: well above what is left of transients, and changes go with its square."""
@@ -64,7 +69,12 @@ class Refined:
     repeats: bool
 
 
-def refine(measured: Waveform, start: Array, known: Configuration) -> Refined:
+def refine(
+    measured: Waveform,
+    start: Array,
+    known: Configuration,
+    response: ComplexArray | None = None,
+) -> Refined:
     """Return the ground whose motion is nearest to a waveform.
 
     Parameters
@@ -75,53 +85,89 @@ def refine(measured: Waveform, start: Array, known: Configuration) -> Refined:
         ln G and ln p to start from.
     known : Configuration
         Machine, exciter, half space, density, Poisson's ratio.
+    response : ndarray, optional
+        Of the sensor's low-pass, see `low_pass`.
     """
     size = float(np.sqrt(np.mean(measured.vertical**2)))
-    enough = max(FOUND * size, FOUND_SIGMAS * measured.noise)
-    best: Refined | None = None
-    for factor in STARTS:
-        found = _from(measured, start, known, factor)
-        if best is None or found.misfit < best.misfit:
-            best = found
-        if best.misfit <= enough:
-            break
-    assert best is not None  # there are starts
+    enough = FOUND * size + FOUND_SIGMAS * measured.noise
+    matching = _Matching(measured, start, known, response)
+    best = matching.nearest(start)
+    if best.misfit > enough:
+        best = min(best, matching.nearest(matching.best_around(best.logs)), key=_misfit)
+    for factor in OTHER_STARTS:
+        if best.misfit > enough:
+            other = _Matching(measured, start, known, response, factor)
+            best = min(best, other.nearest(start), key=_misfit)
     return best
 
 
-def _from(measured: Waveform, start: Array, known: Configuration, factor: float) -> Refined:
-    """Refine from one start."""
-    samples = len(measured.vertical) // measured.period
-    orbit = Orbit(known, start, measured.period, samples, factor)
-    # A motion over several revolutions may have begun with any of them.
-    first = orbit.vertical(start)
-    shifts = [samples * turn for turn in range(measured.period)]
-    shift = min(shifts, key=lambda by: float(((np.roll(first, by) - measured.vertical) ** 2).sum()))
+def _misfit(found: Refined) -> float:
+    return found.misfit
 
-    def residual(logs: Array) -> Array:
-        return np.asarray(np.roll(orbit.vertical(logs), shift) - measured.vertical)
 
-    found = least_squares(
-        residual,
-        start,
-        bounds=(
-            np.maximum(np.log(LEAST), start - REACH) - 1e-9,
-            np.minimum(np.log(MOST), start + REACH) + 1e-9,
-        ),
-        x_scale=0.1,
-        diff_step=[DIFFERENCE, DIFFERENCE],
-        xtol=TOLERANCE,
-        ftol=1e-6,
-        gtol=1e-12,
-        max_nfev=MOST_STEPS,
-    )
-    return Refined(
-        logs=np.asarray(found.x),
-        covariance=covariance(np.asarray(found.jac), found.fun),
-        modelled=measured.vertical + found.fun,
-        misfit=float(np.sqrt(np.mean(found.fun**2))),
-        repeats=orbit.repeats,
-    )
+class _Matching:
+    """The model's motion beside a measured one.
+
+    Parameters
+    ----------
+    measured, start, known, response
+        As for `refine`.
+    start_factor : float
+        As for `Orbit`.
+    """
+
+    def __init__(
+        self,
+        measured: Waveform,
+        start: Array,
+        known: Configuration,
+        response: ComplexArray | None,
+        start_factor: float = 1.0,
+    ) -> None:
+        samples = len(measured.vertical) // measured.period
+        self._measured = measured.vertical
+        self._response = response
+        self._orbit = Orbit(known, start, measured.period, samples, start_factor)
+        # A motion over several revolutions may have begun with any of them.
+        first = passed(self._orbit.vertical(start), response)
+        self._shift = min(
+            (samples * turn for turn in range(measured.period)),
+            key=lambda by: float(((np.roll(first, by) - self._measured) ** 2).sum()),
+        )
+
+    def left(self, logs: Array) -> Array:
+        """Return modelled less measured, m/s², on a ground."""
+        modelled = passed(self._orbit.vertical(logs), self._response)
+        return np.asarray(np.roll(modelled, self._shift) - self._measured)
+
+    def best_around(self, logs: Array) -> Array:
+        """Return the ground around one on which least is left."""
+        grounds = [np.clip(logs + off, np.log(LEAST), np.log(MOST)) for off in AROUND]
+        return min(grounds, key=lambda ground: float((self.left(ground) ** 2).sum()))
+
+    def nearest(self, start: Array) -> Refined:
+        """Return the ground from a start on which least is left, as far as steps lead."""
+        found = least_squares(
+            self.left,
+            start,
+            bounds=(
+                np.maximum(np.log(LEAST), start - REACH) - 1e-9,
+                np.minimum(np.log(MOST), start + REACH) + 1e-9,
+            ),
+            x_scale=0.1,
+            diff_step=[DIFFERENCE, DIFFERENCE],
+            xtol=TOLERANCE,
+            ftol=1e-6,
+            gtol=1e-12,
+            max_nfev=MOST_STEPS,
+        )
+        return Refined(
+            logs=np.asarray(found.x),
+            covariance=covariance(np.asarray(found.jac), found.fun),
+            modelled=self._measured + found.fun,
+            misfit=float(np.sqrt(np.mean(found.fun**2))),
+            repeats=self._orbit.repeats,
+        )
 
 
 def covariance(jacobian: Array, left: Array) -> Array:

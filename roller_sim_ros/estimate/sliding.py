@@ -74,7 +74,11 @@ class SlidingWindow:
 
 
 def estimate_turns(
-    window: Window, known: Configuration, constant: float = CONSTANT
+    window: Window,
+    known: Configuration,
+    *,
+    constant: float = CONSTANT,
+    sensor_bandwidth_hz: float = 0.0,
 ) -> tuple[WindowEstimate, Configuration]:
     """Estimate one window at the frequency and amplitude that its revolutions had.
 
@@ -86,6 +90,8 @@ def estimate_turns(
         What is known beside these; its amplitude holds where a revolution's is unknown.
     constant : float
         Relative change of frequency or amplitude that is none.
+    sensor_bandwidth_hz : float
+        As for `estimate_window`.
 
     Returns
     -------
@@ -116,4 +122,5 @@ def estimate_turns(
         np.ptp(amplitudes) > CONSTANT * amplitudes.mean()
     ):
         return WindowEstimate(Status.CHANGING), known
-    return estimate_window(np.stack([turn.vertical for turn in window.turns]), known), known
+    rows = np.stack([turn.vertical for turn in window.turns])
+    return estimate_window(rows, known, sensor_bandwidth_hz=sensor_bandwidth_hz), known

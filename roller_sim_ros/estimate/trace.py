@@ -63,6 +63,8 @@ class TraceOptions:
         Revolutions in a window, and from one to the next.
     tacho : bool
         Take the phase from the pulses on ``tacho`` though the samples tell it.
+    sensor_bandwidth_hz : float
+        Frequency of −3 dB of the sensor's second-order Butterworth low-pass; 0: none.
     given : mapping
         {dotted name: SI value} of parameters that are known better than the trace tells: of the machine, the exciter,
         the half space; density and Poisson's ratio.
@@ -76,6 +78,7 @@ class TraceOptions:
     window_revolutions: int = WINDOW_REVOLUTIONS
     step_revolutions: int = STEP_REVOLUTIONS
     tacho: bool = False
+    sensor_bandwidth_hz: float = 0.0
     given: Mapping[str, Value] = field(default_factory=dict)
     machine_given: bool = False
     amplitude_m: float | None = None
@@ -183,6 +186,7 @@ class _Pass:
         self._known = known
         self._collector = TurnCollector(SAMPLES_PER_REVOLUTION)
         self._sliding = SlidingWindow(options.window_revolutions, options.step_revolutions)
+        self._bandwidth_hz = options.sensor_bandwidth_hz
         self._fixed_m = options.amplitude_m
         self._amplitude_m = math.nan if self._fixed_m is None else self._fixed_m
         self._start_ns: int | None = None
@@ -314,7 +318,12 @@ class _Pass:
             self._on_window(window)
 
     def _on_window(self, window: Window) -> None:
-        estimate, known = estimate_turns(window, self._known, self._constant)
+        estimate, known = estimate_turns(
+            window,
+            self._known,
+            constant=self._constant,
+            sensor_bandwidth_hz=self._bandwidth_hz,
+        )
         last = window.turns[-1]
         self._add(
             window.turns[0].time_s,

@@ -37,8 +37,12 @@ SETTLED = 0.005
 LOOSE = 0.02
 """Share of the peak up to which what changes may have the spectrum of a motion."""
 
-WHITE = 2.0
-"""Power at low orders over that at high ones up to which what changes is noise."""
+LOW, HIGH = slice(1, 6), slice(10, 21)
+"""Orders of motion, and of little but noise. Chaos and subharmonics have 35 times the power at the former and more,
+noise as much, also behind a low-pass of some hundred Hz."""
+
+NOISE = 4.0
+"""Power at the former over that at the latter up to which what changes is noise."""
 
 DRIFT = 2.0
 """Growth of the change from the period to half the window, or its fall from the first half to the second, at which the
@@ -116,7 +120,7 @@ def waveform(revolutions: NDArray[np.floating]) -> Waveform:
         )
         if drift > DRIFT * sizes[period] or early > DRIFT * late:
             return Waveform(Status.UNSETTLED)
-        if sizes[period] > LOOSE * peak and _lowness(changes[period]) > WHITE:
+        if sizes[period] > LOOSE * peak and _lowness(changes[period]) > NOISE:
             return Waveform(Status.CHAOTIC)
     whole = len(rows) // period
     vertical = rows[: whole * period].reshape(whole, -1).mean(axis=0)
@@ -124,11 +128,10 @@ def waveform(revolutions: NDArray[np.floating]) -> Waveform:
 
 
 def _lowness(changes: Array) -> float:
-    """Return the mean power at the lowest fifth of the orders over that at the highest two fifths."""
+    """Return the mean power at the orders of motion over that at those of noise."""
     power = (np.abs(np.fft.rfft(changes, axis=1)) ** 2).mean(axis=0)
-    orders = len(power) - 1
-    high = power[orders * 3 // 5 : -1].mean()
-    return float(power[1 : 1 + orders // 5].mean() / high) if high > 0.0 else np.inf
+    high = float(power[HIGH].mean())
+    return float(power[LOW].mean()) / high if high > 0.0 else np.inf
 
 
 def is_clipped(samples: Array) -> bool:

@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from roller_sim_ros.estimate.inversion import invert
+from roller_sim_ros.estimate.low_pass import low_pass, undone
 from roller_sim_ros.estimate.refine import Refined, refine
 from roller_sim_ros.estimate.soil_map import best_ground
 from roller_sim_ros.estimate.status import Status
@@ -50,7 +51,7 @@ class WindowEstimate:
     noise_m_s2 : float
         What of it the difference from revolution to revolution explains, m/s².
     measured, modelled : ndarray, shape (period × samples per revolution,)
-        Vertical acceleration over one period without its mean, m/s², from phase zero on.
+        Vertical acceleration over one period without its mean, m/s², from phase zero on, as the sensor shows it.
     """
 
     status: Status
@@ -67,7 +68,9 @@ class WindowEstimate:
     modelled: Array = field(default_factory=lambda: np.zeros(0), repr=False)
 
 
-def estimate_window(revolutions: NDArray[np.floating], known: Configuration) -> WindowEstimate:
+def estimate_window(
+    revolutions: NDArray[np.floating], known: Configuration, *, sensor_bandwidth_hz: float = 0.0
+) -> WindowEstimate:
     """Estimate the ground under a window of revolutions at one frequency and amplitude.
 
     Parameters
@@ -78,22 +81,27 @@ def estimate_window(revolutions: NDArray[np.floating], known: Configuration) -> 
     known : Configuration
         Machine, exciter (frequency, amplitude, kind), half space, density and Poisson's ratio; its G and p are not
         looked at.
+    sensor_bandwidth_hz : float
+        Frequency of −3 dB of the sensor's second-order Butterworth low-pass; 0: none.
 
     Raises
     ------
     EstimateError
-        If the array has another shape.
+        If the array has another shape, or the bandwidth is negative.
     """
     measured = waveform(revolutions)
     if known.exciter.amplitude_m <= 0.0 or known.exciter.frequency_hz <= 0.0:
         return WindowEstimate(Status.STANDING)
     if measured.status is not Status.OK:
         return WindowEstimate(measured.status)
-    inverted = invert(measured.vertical, measured.noise, measured.period, known)
+    response = low_pass(
+        len(measured.vertical), measured.period, known.exciter.frequency_hz, sensor_bandwidth_hz
+    )
+    inverted = invert(undone(measured.vertical, response), measured.noise, measured.period, known)
     if not len(inverted.contact):
         return WindowEstimate(Status.MISFIT, period=measured.period)
     start = best_ground(inverted, measured.period, known)
-    return _estimate(measured, refine(measured, start, known))
+    return _estimate(measured, refine(measured, start, known, response))
 
 
 def _estimate(measured: Waveform, found: Refined) -> WindowEstimate:
