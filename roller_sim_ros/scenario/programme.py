@@ -61,6 +61,7 @@ class ExciterProgramme:
     def __init__(self, start: Exciter, steps: tuple[ProgrammeStep, ...]) -> None:
         self._start = ExciterCommand(start.vibrate, start.frequency_hz, start.amplitude_m)
         self._steps = steps
+        self._last = self._start
 
     def command(self, moment: Moment) -> ExciterCommand:
         """Return what the exciter is to do."""
@@ -74,4 +75,13 @@ class ExciterProgramme:
                     frequency_hz = step.frequency_hz
                 if step.amplitude_mm is not None:
                     amplitude_m = step.amplitude_mm / 1e3
-        return ExciterCommand(vibrate and not moment.position.finished, frequency_hz, amplitude_m)
+        vibrate = vibrate and not moment.position.finished
+        last = self._last
+        # Almost always the same as before, and then checked already.
+        if (vibrate, frequency_hz, amplitude_m) != (
+            last.vibrate,
+            last.frequency_hz,
+            last.amplitude_m,
+        ):
+            last = self._last = ExciterCommand(vibrate, frequency_hz, amplitude_m)
+        return last

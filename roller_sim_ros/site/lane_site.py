@@ -130,6 +130,7 @@ class LaneSite:
         self._fresh = np.zeros(self._cells)
         self._cell = self._cell_at(self.position.chainage_m)
         self._soil: Soil | None = None
+        self._soil_cell = -1
 
     @property
     def position(self) -> Position:
@@ -169,6 +170,8 @@ class LaneSite:
     def soil(self, configured: Soil) -> Soil:
         """Return the ground under the drum."""
         del configured
+        if self._soil is not None and self._soil_cell == self._cell:
+            return self._soil
         cell = slice(self._cell, self._cell + 1)
         modulus, plastic = self._compacted(cell)
         values = (
@@ -179,6 +182,7 @@ class LaneSite:
         )
         if self._soil is None or tuple(vars(self._soil).values()) != values:
             self._soil = Soil(*values)
+        self._soil_cell = self._cell
         return self._soil
 
     def state(self) -> dict[str, Any]:
@@ -205,6 +209,7 @@ class LaneSite:
             )
         self._travel.restore(state)
         self._cell = int(state["cell"])
+        self._soil_cell = -1
         self._passes = passes.copy()
         self._fresh = np.asarray(state["fresh_passes"], dtype=np.float64).copy()
 
@@ -244,6 +249,8 @@ class LaneSite:
                 # Rounded, so that cells that were driven over alike are alike to the last bit.
                 self._passes[cell] = round(self._passes[cell] + self._fresh[cell], DIGITS)
                 self._fresh[cell] = 0.0
+                if cell == self._soil_cell:
+                    self._soil_cell = -1
 
 
 def profile_of(

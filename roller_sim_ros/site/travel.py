@@ -86,17 +86,21 @@ class Travel:
         self._standing_s = 0.0
         self._elapsed_s = 0.0
         self._driven_m_s: float | None = None
+        self._position: Position | None = None
 
     @property
     def position(self) -> Position:
         """Where the roller is."""
-        return Position(
-            self._chainage_m, self._pass_number, self._signed_speed(), self._all_driven()
-        )
+        if self._position is None:
+            self._position = Position(
+                self._chainage_m, self._pass_number, self._signed_speed(), self._all_driven()
+            )
+        return self._position
 
     def drive(self, speed_m_s: float | None) -> None:
         """Travel at a speed; None: as planned."""
         self._driven_m_s = speed_m_s
+        self._position = None
         if speed_m_s is None:
             return
         self._standing_s = 0.0
@@ -106,6 +110,7 @@ class Travel:
     def move(self, duration_s: float) -> list[Leg]:
         """Travel on for some time, and return the legs, one after the other, that fill it."""
         legs = []
+        self._position = None
         left_s = duration_s
         if self._duration_s is not None:
             left_s = min(left_s, max(0.0, self._duration_s - self._elapsed_s))
@@ -136,6 +141,7 @@ class Travel:
 
     def restore(self, state: dict[str, float | int | bool]) -> None:
         """Go on from a state that `state` returned."""
+        self._position = None
         self._chainage_m = float(state["chainage_m"])
         self._forward = bool(state["forward"])
         self._pass_number = int(state["pass_number"])
