@@ -25,7 +25,8 @@ from rclpy.node import Node
 from rclpy.parameter import Parameter, parameter_value_to_python
 from rclpy.qos import QoSProfile
 
-from roller_sim_ros.msg import ExciterCommand
+from roller_sim_ros.msg import ExciterCommand, Result
+from roller_sim_ros.srv import Advance
 from roller_sim_ros.traces.reader import TraceReader
 from roller_sim_ros.wire.types import decode
 
@@ -236,10 +237,23 @@ class Client:
         return str(self.call(GetState, "get_state", GetState.Request()).current_state.label)
 
     def call(self, service: type, name: str, request: Any) -> Any:
-        """Call a service of the roller and return its response."""
+        """Call a service that the roller has as a node and return its response."""
+        return self._call(service, f"{NODE}/{name}", request)
+
+    def ask(self, service: type, name: str, **fields: Any) -> Any:
+        """Call a service of the simulation, the request given by its fields, and return the response."""
+        return self._call(service, name, service.Request(**fields))
+
+    def advance(self, **fields: Any) -> Any:
+        """Step by revolutions or seconds, which has to succeed, and return the response."""
+        response = self.ask(Advance, "advance", **fields)
+        assert response.result.result == Result.RESULT_OK, response.result.error_message
+        return response
+
+    def _call(self, service: type, name: str, request: Any) -> Any:
         client = self._services.get(name)
         if client is None:
-            client = self.node.create_client(service, f"{NODE}/{name}")
+            client = self.node.create_client(service, name)
             self._services[name] = client
         self.spin_until(client.service_is_ready)
         future = client.call_async(request)
