@@ -11,13 +11,11 @@ from roller_sim_ros.commands.flags import given_value, given_values
 from roller_sim_ros.commands.progress import progress
 from roller_sim_ros.parameters import PARAMETERS, ParameterError
 from roller_sim_ros.parameters.quantity import declared
-from roller_sim_ros.scenario import Scenario, Start, has_own_section, read_scenario, start_of
-from roller_sim_ros.scenario.metadata import scenario_metadata
-from roller_sim_ros.scenario.shipped import scenario_path
 from roller_sim_ros.soil_mechanics import GranularSoil
 
 if TYPE_CHECKING:
     from roller_sim_ros.offline.scenario_run import ScenarioRun
+    from roller_sim_ros.scenario import Scenario, Start
 
 OF_THE_RUN = ("recording.path",)
 """Parameters that a flag gives beside a scenario, though no scenario says them."""
@@ -53,9 +51,13 @@ def run(arguments: argparse.Namespace) -> tuple[dict[str, object], str]:
     RollerSimError
         If the scenario or a flag is refused, or a file cannot be read or written.
     """
+    # What takes long to import comes after --help.
+    from roller_sim_ros.scenario import read_scenario, start_of
+    from roller_sim_ros.scenario.shipped import scenario_path
+
     scenario = read_scenario(scenario_path(arguments.scenario))
     start = _with_flags(start_of(scenario), arguments)
-    # What takes long to import comes after wrong arguments.
+    # What takes longer comes after wrong arguments.
     from roller_sim_ros.offline.scenario_report import as_object, as_table, write_csv
 
     result = _run(scenario, start, arguments)
@@ -77,6 +79,8 @@ def _with_flags(start: Start, arguments: argparse.Namespace) -> Start:
     ParameterError
         If one does.
     """
+    from roller_sim_ros.scenario import has_own_section
+
     for flag, value in (
         ("--params", arguments.params),
         ("--machine", arguments.machine),
@@ -110,6 +114,7 @@ def _run(scenario: Scenario, start: Start, arguments: argparse.Namespace) -> Sce
         return run_scenario(scenario, session, step, show, arguments.revolutions)
     from roller_sim_ros.emulation import Emulator
     from roller_sim_ros.offline.recording import record
+    from roller_sim_ros.scenario.metadata import scenario_metadata
     from roller_sim_ros.traces.metadata import run_metadata
 
     emulator = Emulator(start_ns=time.time_ns(), **start._asdict())
