@@ -44,13 +44,17 @@ _AT_ITS_END = (
     *("cmv", "rmv", "air_fraction", "force_ratio_max"),
     *("period", "blows_per_period", "mode"),
 )
-_LEFT_OUT = frozenset(
-    topic.type_name
-    for topic in (
-        *(topics.INPUTS, topics.IMU, topics.DIAGNOSTICS),
-        *(topics.EXCITER_COMMAND, topics.PARAMETER_EVENTS),
-    )
+RUN_TOPICS = tuple(
+    topic
+    for topic in topics.TOPICS
+    if topic.direction is topics.Direction.PUBLISHED
+    and topic not in (topics.DIAGNOSTICS, topics.CLOCK)
 )
+"""What an emulator says, and not the node that drives it."""
+_HASHED = {topic.type_name for topic in RUN_TOPICS} - {
+    topics.INPUTS.type_name,
+    topics.IMU.type_name,
+}
 
 
 class Streamed(Protocol):
@@ -78,7 +82,8 @@ class StreamHashes:
     Of ``drum/acceleration`` and ``truth`` it takes sample by sample what belongs to a sample, and of the latter, where
     a revolution begins or ends, what belongs to that. ``exciter/state`` comes ten times a second with whatever
     block is the next: of it, it takes what changes. Of everything else it takes every byte, stamps from the start of
-    the run. What is of the driver and not of the run is left out: ``inputs``, commands, diagnostics, ``drum/imu``.
+    the run. What is of the driver and not of the run is left out: ``inputs``, commands, diagnostics, ``/clock``, and
+    ``drum/imu``, which only comes while someone listens.
 
     Two things do depend on the size of the blocks and show: messages that a fault doubles or puts in another order,
     and how much a sensor that delivers late still has to deliver at the end.
@@ -98,7 +103,7 @@ class StreamHashes:
     def feed(self, messages: Iterable[Streamed]) -> None:
         """Take the next messages."""
         for message in messages:
-            if message.type_name in _LEFT_OUT:
+            if message.type_name not in _HASHED:
                 continue
             if message.type_name in _SAMPLES:
                 self._samples(message)

@@ -9,7 +9,7 @@ from pathlib import Path
 
 from roller_sim_ros.emulation import Emulator
 from roller_sim_ros.emulation.inputs import Input, InputKind, input_of
-from roller_sim_ros.emulation.streams import StreamHashes
+from roller_sim_ros.emulation.streams import RUN_TOPICS, StreamHashes
 from roller_sim_ros.errors import RollerSimError
 from roller_sim_ros.offline.alignment import Alignment, Mismatch, Place, Replayed
 from roller_sim_ros.offline.difference import Difference, differing_field
@@ -20,8 +20,6 @@ from roller_sim_ros.traces.reader import TraceMessage, TraceReader
 from roller_sim_ros.wire import topics
 from roller_sim_ros.wire.types import decode
 
-NOT_OF_A_RUN = (topics.DIAGNOSTICS, topics.PARAMETER_EVENTS, topics.EXCITER_COMMAND)
-"""Topics that no run computes."""
 _POOL = 16 * SAMPLES_PER_REVOLUTION
 """Per-sample messages among which a recorded one is looked for; they are only published while someone listens."""
 
@@ -109,14 +107,14 @@ class Replay:
         prefix = _prefix(reader, namespace)
         self._names = {
             topic.resolved(prefix): topic
-            for topic in topics.TOPICS
-            if topic not in NOT_OF_A_RUN and topic.resolved(prefix) in reader.topics
+            for topic in RUN_TOPICS
+            if topic.resolved(prefix) in reader.topics
         }
         if not self._messages_of(topics.TRUTH):
             raise ReplayError(
                 f"{reader.path}: holds no {topics.TRUTH.resolved(prefix)}, which says how the run was cut into blocks"
             )
-        self._alignments = {topic.name: Alignment() for topic in topics.TOPICS}
+        self._alignments = {topic.name: Alignment() for topic in RUN_TOPICS}
         self._inputs = Alignment()
 
     @property
@@ -202,7 +200,7 @@ class _Run:
 
     def end(self) -> bool:
         """End the run, and return whether something differs."""
-        for topic in topics.TOPICS:
+        for topic in RUN_TOPICS:
             mismatch = self._alignments[topic.name].end_run()
             # Where the trace was cut off, samples may have come whose block did not.
             if mismatch is not None and topic is not topics.ACCELERATION:
