@@ -133,7 +133,7 @@ class TraceRecords:
     def _read(self, frame: Frame) -> Iterator[Record]:
         opcode, content = frame.opcode, frame.content
         if opcode == Opcode.CHUNK:
-            yield from _chunk_records(_whole_chunk(content))
+            yield from _chunk_records(whole_chunk(content))
         elif opcode == Opcode.MESSAGE:
             yield RawMessage._make((*_MESSAGE.unpack_from(content), content[_MESSAGE.size :]))
         elif opcode == Opcode.FOOTER:
@@ -194,7 +194,7 @@ _NAMES: dict[int, str] = {
 }
 
 
-def _whole_chunk(content: bytes) -> bytes:
+def whole_chunk(content: bytes) -> bytes:
     """Return the records of a chunk as they were before compression, checked."""
     chunk = Chunk.read(ReadDataStream(BytesIO(content)))
     if chunk.uncompressed_size > _LARGEST_CHUNK:
