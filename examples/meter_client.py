@@ -26,8 +26,9 @@ class Meter(Node):
         self.create_subscription(DrumAcceleration, "drum/acceleration", self.take, 320)
 
     def take(self, block):
-        """Add a block; begin anew after a gap, and where N samples are no revolution."""
-        if block.sequence != self.following or block.phase_increment < 2 * np.pi / N - 1e-9:
+        """Add a block; begin anew after a gap, a clipped sample, and where N samples are no revolution."""
+        whole = block.phase_increment > 2 * np.pi / N - 1e-9
+        if block.sequence != self.following or block.clipped or not whole:
             self.window = np.zeros(0)
         self.window = np.append(self.window, block.vertical)[-16 * N :]
         self.following = block.sequence + len(block.vertical)

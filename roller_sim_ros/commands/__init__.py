@@ -21,6 +21,7 @@ COMMANDS = {
     "estimate": "estimate the ground from a trace: shear modulus and plastic parameter",
     "analyze": "evaluate a trace: gaps, meter values, plot and CSV",
     "score": "judge a compaction meter by the truth beside it in a trace",
+    "bench": "run a scenario with a compaction meter beside it, and judge the meter",
     "export": "write a trace as CSV, Parquet, MATLAB, sound or a map",
     "fmu": "write the roller as a functional mock-up unit (FMI)",
     "play": "republish a trace over ROS 2 at its original pace",

@@ -73,6 +73,7 @@ LAYERS = (
     "figures",
     "score",
     "node",
+    "bench",
     "commands",
 )
 

@@ -1,0 +1,1 @@
+"""Scenario, meter under test and verdict in one go: node and meter as processes in a ROS domain of their own."""
