@@ -7,7 +7,6 @@ from collections.abc import Callable, Iterable
 from contextlib import suppress
 from typing import Any
 
-from rclpy.duration import Duration
 from rclpy.node import Node
 from rclpy.publisher import Publisher
 
@@ -19,11 +18,6 @@ from roller_sim_ros.traces.recorder import Recorder
 from roller_sim_ros.wire import topics
 from roller_sim_ros.wire.messages import Message
 
-PATIENCE_S = 1.0
-"""How long time waits for a reader that does not say that it has got what it was sent."""
-
-NO_LIMIT = 2**62
-
 
 class Outlet:
     """The publishers of all topics of the table; safe to use from several threads.
@@ -33,7 +27,7 @@ class Outlet:
     node : rclpy.node.Node
         Whose publishers they are.
     pacing : Pacing
-        Depths depend on it, and whether time waits for slow readers: simulated time does.
+        Depths depend on it, and whether there is a ``/clock``.
     now_ns : callable
         When what is recorded was sent, ns.
 
@@ -60,9 +54,6 @@ class Outlet:
         self.unsent = 0
         self._node = node
         self._now_ns = now_ns
-        self._patient = pacing.simulated_time
-        self._room: dict[str, int] = {}
-        self._in_flight: dict[str, int] = {}
         try:
             for topic in topics.TOPICS:
                 if _wanted(topic, pacing):
@@ -75,8 +66,6 @@ class Outlet:
     def send(self, messages: Iterable[Message]) -> None:
         """Publish messages, in order, and hand them to the recording."""
         for message in messages:
-            if self._patient:
-                self._wait_for_room(message.topic)
             try:
                 self.publishers[message.topic].publish(message.data)
             except RuntimeError:
@@ -93,27 +82,11 @@ class Outlet:
             with suppress(RuntimeError):
                 publisher.publish(message.data)
 
-    def wait_until_read(self) -> None:
-        """Wait until all readers that are there have what was sent, or are given up."""
-        for publisher in self.publishers.values():
-            publisher.wait_for_all_acked(Duration(seconds=PATIENCE_S))
-
-    def _wait_for_room(self, topic: str) -> None:
-        """Let a slow reader catch up before the history overwrites what it has not got."""
-        in_flight = self._in_flight.get(topic, 0) + 1
-        if in_flight > self._room[topic]:
-            self.publishers[topic].wait_for_all_acked(Duration(seconds=PATIENCE_S))
-            in_flight = 1
-        self._in_flight[topic] = in_flight
-
     def imu_wanted(self) -> bool:
         """Return whether anyone listens to the per-sample messages."""
         return bool(self.publishers[topics.IMU.name].get_subscription_count())
 
     def _open(self, topic: topics.Topic, pacing: Pacing) -> None:
-        # Of a state only the last word counts, and of the clock.
-        counts = topic.depth(pacing) > 1 and topic is not topics.CLOCK
-        self._room[topic.name] = topic.depth(pacing) // 2 if counts else NO_LIMIT
         with overrides_of(topic):
             self.publishers[topic.name] = self._node.create_publisher(
                 message_type(topic.type_name),

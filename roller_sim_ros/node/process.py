@@ -113,7 +113,6 @@ def _spin(node: RollerNode, signals: Signals) -> None:
         while not signals.stop:
             executor.spin_once(timeout_sec=SPIN_S)
             if node.simulation.quitting or (node.roller.stop_at_end and node.roller.ended):
-                node.roller.wait_until_read()
                 break
             if node.roller.failure is not None:
                 raise RollerSimError(

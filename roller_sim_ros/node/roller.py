@@ -251,11 +251,6 @@ class Roller:
         self._close_recording()
         self._close_topics()
 
-    def wait_until_read(self) -> None:
-        """Wait until readers have what was sent."""
-        if self._outlet is not None:
-            self._outlet.wait_until_read()
-
     def check(self, values: Mapping[str, Value]) -> Configuration:
         """Return the configuration that `change` would make.
 

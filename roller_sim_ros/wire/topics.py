@@ -15,6 +15,11 @@ BRISK_HZ = 40.0
 """Excitation frequency by which depths of "one second" are reckoned; rollers vibrate at 25 to 40 Hz."""
 
 
+SIMULATED_TIMES, DEEPEST = 100, 50_000
+"""By how much histories are deeper in simulated time, which may go a hundred times faster, and no deeper than this: the
+middleware sends again what a reader has missed only every 3 s of real time, if it still has it then."""
+
+
 class Direction(Enum):
     """What the node does with a topic."""
 
@@ -76,8 +81,12 @@ class Topic:
     of_simulated_time: bool = False
 
     def qos(self, pacing: Pacing) -> Qos:
-        """Return the quality of service at a pacing."""
-        return Qos("reliable", self.durability, self.depth(pacing))
+        """Return the quality of service at a pacing; in simulated time histories are deeper."""
+        depth = self.depth(pacing)
+        # Of a state only the last word counts, and of the clock, which is best effort to its readers.
+        if pacing.simulated_time and not self.of_simulated_time and depth > 1:
+            depth = min(SIMULATED_TIMES * depth, DEEPEST)
+        return Qos("reliable", self.durability, depth)
 
     def resolved(self, namespace: str = "/") -> str:
         """Return the absolute name in a namespace."""

@@ -45,18 +45,6 @@ def test_refused_message_is_counted_and_recorded(monkeypatch):
     assert out.trace.taken == [("/meter", b"a"), ("/meter", b"too much"), ("/meter", b"b")]
 
 
-def test_simulated_time_waits_for_readers_before_their_messages_are_overwritten(monkeypatch):
-    monkeypatch.setattr(outlet, "message_type", lambda name: name)
-    out = Outlet(Node(), Pacing(clock="sim"))
-    meter = out.publishers["meter"]
-    waits = []
-    meter.wait_for_all_acked = lambda timeout: waits.append((len(meter.sent), timeout))
-    out.send(Message("meter", "any", b"a", 1) for _ in range(100))
-    # The history holds 40.
-    assert [sent for sent, _ in waits] == [20, 40, 60, 80]
-    assert len(meter.sent) == 100
-
-
 def test_clock_is_there_in_simulated_time_and_refusable(monkeypatch):
     monkeypatch.setattr(outlet, "message_type", lambda name: name)
     assert "/clock" not in Outlet(Node(), Pacing()).publishers
