@@ -200,7 +200,8 @@ class _Run:
 
     def end(self) -> bool:
         """End the run, and return whether something differs."""
-        for topic in RUN_TOPICS:
+        # Where something differs, the rest was not looked at.
+        for topic in RUN_TOPICS if self.result.difference is None else ():
             mismatch = self._alignments[topic.name].end_run()
             # Where the trace was cut off, samples may have come whose block did not.
             if mismatch is not None and topic is not topics.ACCELERATION:
