@@ -36,7 +36,7 @@ The spread is one standard deviation. The status says whether the values stand, 
 trace cannot be read, or not all of it; then what was read is shown all the same.
 """
 
-_WINDOW, _STEP = 16, 8
+_WINDOW = 16
 
 
 def main(argv: list[str] | None = None) -> int:
@@ -58,7 +58,11 @@ def main(argv: list[str] | None = None) -> int:
         If the trace cannot be read to its end or tells too little, a parameter is refused, or an output cannot be
         written.
     """
-    arguments = _parser().parse_args(argv)
+    parser = _parser()
+    arguments = parser.parse_args(argv)
+    step, window = arguments.step_revolutions, arguments.window_revolutions
+    if step is not None and step > window:
+        parser.error(f"argument --step-revolutions: {step} is more than the window's {window}")
     given: dict[str, Value] = {}
     if arguments.params is not None:
         given.update(read_parameters(arguments.params))
@@ -72,8 +76,8 @@ def main(argv: list[str] | None = None) -> int:
 
     options = TraceOptions(
         topic=arguments.topic,
-        window_revolutions=arguments.window_revolutions,
-        step_revolutions=min(arguments.step_revolutions, arguments.window_revolutions),
+        window_revolutions=window,
+        step_revolutions=step,
         tacho=arguments.tacho,
         sensor_bandwidth_hz=arguments.sensor_bandwidth_hz,
         given={name: value for name, value in given.items() if name in KNOWN},
@@ -147,8 +151,7 @@ def _parser() -> argparse.ArgumentParser:
         "--step-revolutions",
         metavar="N",
         type=whole(1),
-        default=_STEP,
-        help="revolutions from one window to the next, at most a window's (default: %(default)s)",
+        help="revolutions from one window to the next, at most a window's (default: half a window)",
     )
     parser.add_argument(
         "--tacho",

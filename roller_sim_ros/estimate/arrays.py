@@ -14,7 +14,6 @@ from roller_sim_ros.estimate.window import WindowEstimate
 from roller_sim_ros.parameters import SAMPLES_PER_REVOLUTION, Configuration
 
 WINDOW_REVOLUTIONS = 16
-STEP_REVOLUTIONS = 8
 
 
 def estimate(
@@ -23,7 +22,7 @@ def estimate(
     *,
     phase_rad: NDArray[np.floating] | None = None,
     window_revolutions: int = WINDOW_REVOLUTIONS,
-    step_revolutions: int = STEP_REVOLUTIONS,
+    step_revolutions: int | None = None,
     sensor_bandwidth_hz: float = 0.0,
 ) -> list[WindowEstimate]:
     """Estimate the ground in windows that slide over the samples of a run at one frequency and amplitude.
@@ -38,8 +37,10 @@ def estimate(
     phase_rad : ndarray, shape (n,), optional
         Phase of the eccentric at each sample, rad, rising, as `numpy.unwrap` gives it; its vertical force goes as the
         sine. When left out there are 128 samples per revolution from phase zero on.
-    window_revolutions, step_revolutions : int
-        Revolutions in a window, and from one to the next.
+    window_revolutions : int
+        Revolutions in a window.
+    step_revolutions : int, optional
+        From one window to the next; half a window when left out.
     sensor_bandwidth_hz : float
         Frequency of −3 dB of the sensor's second-order Butterworth low-pass; 0: none.
 
@@ -54,7 +55,7 @@ def estimate(
         If the arrays have other shapes or are empty, the phase does not rise, or a window is no possible one.
     """
     samples = np.asarray(vertical, dtype=np.float64)
-    check_window(window_revolutions, step_revolutions)
+    step = step_of(window_revolutions, step_revolutions)
     if samples.ndim != 1 or not len(samples):
         raise EstimateError(
             f"an array of shape {samples.shape} holds no samples; shape (n,) is needed"
@@ -69,7 +70,7 @@ def estimate(
                 "see numpy.unwrap"
             )
     collector = TurnCollector(SAMPLES_PER_REVOLUTION)
-    sliding = SlidingWindow(window_revolutions, step_revolutions)
+    sliding = SlidingWindow(window_revolutions, step)
     found: list[Window] = []
     exciter = known.exciter
     rows = collector.feed(
@@ -91,8 +92,8 @@ def estimate(
     ]
 
 
-def check_window(window_revolutions: int, step_revolutions: int) -> None:
-    """Refuse windows that are none.
+def step_of(window_revolutions: int, step_revolutions: int | None) -> int:
+    """Return the step from window to window, half a window where none is given.
 
     Raises
     ------
@@ -101,7 +102,10 @@ def check_window(window_revolutions: int, step_revolutions: int) -> None:
     """
     if window_revolutions < 4:
         raise EstimateError(f"window_revolutions = {window_revolutions} must be at least 4")
+    if step_revolutions is None:
+        return window_revolutions // 2
     if not 1 <= step_revolutions <= window_revolutions:
         raise EstimateError(
             f"step_revolutions = {step_revolutions} must be 1 to {window_revolutions}, a window's revolutions"
         )
+    return step_revolutions

@@ -10,7 +10,7 @@ from scipy.optimize import least_squares
 
 from roller_sim_ros.estimate.low_pass import ComplexArray, passed
 from roller_sim_ros.estimate.orbit import Orbit
-from roller_sim_ros.estimate.soil_map import LEAST, MOST
+from roller_sim_ros.estimate.surfaces import LEAST, MOST
 from roller_sim_ros.estimate.waveform import Waveform
 from roller_sim_ros.parameters import Configuration
 

@@ -12,19 +12,14 @@ from numpy.typing import NDArray
 from scipy.optimize import least_squares
 
 from roller_sim_ros.estimate.inversion import Inverted
-from roller_sim_ros.estimate.surfaces import SURFACES
-from roller_sim_ros.parameters import PARAMETERS, Configuration
+from roller_sim_ros.estimate.surfaces import LEAST, MOST, SURFACES
+from roller_sim_ros.parameters import Configuration
 
 Array = NDArray[np.float64]
 
 MODULI = 60
 PLASTICS = 40
 """Numbers of G and of p in the map, evenly spaced in their logarithms."""
-
-G_NAME, P_NAME = "soil.shear_modulus_pa", "soil.plastic_parameter_m"
-LEAST = np.array([PARAMETERS[name][0].minimum for name in (G_NAME, P_NAME)], dtype=np.float64)
-MOST = np.array([PARAMETERS[name][0].maximum for name in (G_NAME, P_NAME)], dtype=np.float64)
-"""Bounds of G, Pa, and p, m."""
 
 _MODULI = np.geomspace(5e6, 400e6, MODULI)
 _PLASTICS = np.geomspace(5e-5, 5e-3, PLASTICS)

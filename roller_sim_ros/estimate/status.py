@@ -19,7 +19,10 @@ class Status(Enum):
         "plastic uncertain",
         "p hardly shows in this motion: its spread is above 20 %; G stands",
     )
-    UNCERTAIN = "uncertain", "the motion hardly shows the ground: the spread of G is above 20 %"
+    UNCERTAIN = (
+        "uncertain",
+        "the motion hardly shows the ground: G or p at a bound, or the spread of G above 20 %",
+    )
     MISFIT = (
         "misfit",
         "no ground of the model moves this machine so: another machine, setting or half space, or a bad sensor",

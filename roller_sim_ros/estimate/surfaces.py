@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from roller_sim_ros.drum_soil import loaded_strip
 from roller_sim_ros.half_space.transient import memory, step_and_ramp
 from roller_sim_ros.half_space.two_pole import two_pole_frequency
-from roller_sim_ros.parameters import Configuration
+from roller_sim_ros.parameters import PARAMETERS, Configuration
 
 Array = NDArray[np.float64]
 ComplexArray = NDArray[np.complex128]
@@ -27,20 +27,16 @@ NODES = 600
 """Of the table of the ramp response from 0 to the memory; cubic between them, so that e is good to 1e-4."""
 
 
-def on(known: Configuration, shear_modulus_pa: float, plastic_parameter_m: float) -> Configuration:
-    """Return what is known with a ground.
+G_NAME, P_NAME = "soil.shear_modulus_pa", "soil.plastic_parameter_m"
+LEAST = np.array([PARAMETERS[name][0].minimum for name in (G_NAME, P_NAME)], dtype=np.float64)
+MOST = np.array([PARAMETERS[name][0].maximum for name in (G_NAME, P_NAME)], dtype=np.float64)
+"""Bounds of G, Pa, and p, m."""
 
-    Raises
-    ------
-    ParameterError
-        If no ground can be so.
-    """
-    return known.changed(
-        {
-            "soil.shear_modulus_pa": float(shear_modulus_pa),
-            "soil.plastic_parameter_m": float(plastic_parameter_m),
-        }
-    )
+
+def on(known: Configuration, shear_modulus_pa: float, plastic_parameter_m: float) -> Configuration:
+    """Return what is known with a ground, kept within the bounds."""
+    modulus, plastic = np.clip([shear_modulus_pa, plastic_parameter_m], LEAST, MOST)
+    return known.changed({G_NAME: float(modulus), P_NAME: float(plastic)})
 
 
 def _exact(

@@ -22,7 +22,7 @@ from roller_sim_ros.analysis.samples import (
     stamp_ns,
 )
 from roller_sim_ros.analysis.topics import Selection, select
-from roller_sim_ros.estimate.arrays import STEP_REVOLUTIONS, WINDOW_REVOLUTIONS, check_window
+from roller_sim_ros.estimate.arrays import WINDOW_REVOLUTIONS, step_of
 from roller_sim_ros.estimate.known import known_of
 from roller_sim_ros.estimate.pulses import PulsePhase
 from roller_sim_ros.estimate.sliding import (
@@ -59,8 +59,10 @@ class TraceOptions:
     ----------
     topic : str or None
         Topic with the acceleration; needed when there are several.
-    window_revolutions, step_revolutions : int
-        Revolutions in a window, and from one to the next.
+    window_revolutions : int
+        Revolutions in a window.
+    step_revolutions : int or None
+        From one window to the next; None: half a window.
     tacho : bool
         Take the phase from the pulses on ``tacho`` though the samples tell it.
     sensor_bandwidth_hz : float
@@ -76,7 +78,7 @@ class TraceOptions:
 
     topic: str | None = None
     window_revolutions: int = WINDOW_REVOLUTIONS
-    step_revolutions: int = STEP_REVOLUTIONS
+    step_revolutions: int | None = None
     tacho: bool = False
     sensor_bandwidth_hz: float = 0.0
     given: Mapping[str, Value] = field(default_factory=dict)
@@ -158,7 +160,7 @@ def estimate_trace(
         If there is nothing that can be estimated from: no such file or topic, no pulses, an unknown machine.
     """
     options = options or TraceOptions()
-    check_window(options.window_revolutions, options.step_revolutions)
+    step_of(options.window_revolutions, options.step_revolutions)
     bag = open_bag(path)
     try:
         selection = select(path, bag.topics, options.topic)
@@ -185,7 +187,8 @@ class _Pass:
         self._selection = selection
         self._known = known
         self._collector = TurnCollector(SAMPLES_PER_REVOLUTION)
-        self._sliding = SlidingWindow(options.window_revolutions, options.step_revolutions)
+        revolutions = options.window_revolutions
+        self._sliding = SlidingWindow(revolutions, step_of(revolutions, options.step_revolutions))
         self._bandwidth_hz = options.sensor_bandwidth_hz
         self._fixed_m = options.amplitude_m
         self._amplitude_m = math.nan if self._fixed_m is None else self._fixed_m

@@ -51,8 +51,9 @@ motion has not settled."""
 PLATEAU = 3
 """Samples in a row at the extreme that make it the end of a range."""
 
-STEP_FACTOR = 4.0
-"""Fall from a plateau, in steps of the converter, at which it is no rounded peak."""
+BESIDE = 2
+"""Samples beside a plateau at which its fall is looked at. A parabola that stays within a step of the converter over L
+samples has fallen by at most ((L + 2 BESIDE)/L)² steps there, and is off by one step at most."""
 
 
 @dataclass(frozen=True)
@@ -137,21 +138,22 @@ def _lowness(changes: Array) -> float:
 def is_clipped(samples: Array) -> bool:
     """Tell whether samples stand still at their highest or lowest value as a sensor's do at the end of its range.
 
-    The rounded peak of a coarse converter stands still too; but it falls off by one or two steps to either side, not
-    by many.
+    The rounded peak of a coarse converter stands still too; but it falls off by few of the converter's steps, that is
+    of the least difference between two values.
     """
-    steps = np.abs(np.diff(samples))
-    moving = steps[steps > 0.0]
-    if not len(moving):
+    values = np.unique(samples)
+    if len(values) < 2:
         return False
-    step = float(moving.min())
+    step = float(np.diff(values).min())
     for signed in (samples, -samples):
         at_end = signed == signed.max()
         edges = np.flatnonzero(np.diff(np.concatenate([[False], at_end, [False]]).astype(np.int8)))
         for first, last in zip(edges[::2], edges[1::2], strict=True):
-            if last - first < PLATEAU or first == 0 or last == len(signed):
+            length = last - first
+            before, after = first - BESIDE, last - 1 + BESIDE
+            if length < PLATEAU or before < 0 or after >= len(signed):
                 continue
-            falls = signed[first] - signed[[first - 1, last]]
-            if falls.min() > STEP_FACTOR * step:
+            rounded = ((length + 2 * BESIDE) / length) ** 2 + 1.0
+            if signed[first] - max(signed[before], signed[after]) > rounded * step:
                 return True
     return False

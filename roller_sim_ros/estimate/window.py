@@ -14,6 +14,7 @@ from roller_sim_ros.estimate.low_pass import low_pass, undone
 from roller_sim_ros.estimate.refine import Refined, refine
 from roller_sim_ros.estimate.soil_map import best_ground
 from roller_sim_ros.estimate.status import Status
+from roller_sim_ros.estimate.surfaces import LEAST, MOST
 from roller_sim_ros.estimate.waveform import Waveform, waveform
 from roller_sim_ros.parameters import Configuration
 
@@ -22,7 +23,7 @@ Array = NDArray[np.float64]
 SPREAD = 0.2
 """Relative standard deviation above which a parameter is uncertain."""
 
-MISFIT = 0.1
+MISFIT = 0.05
 """Share of the measured waveform's size that the model may leave beside the noise."""
 
 EXPECTED = 1.5
@@ -132,6 +133,7 @@ def _status(measured: Waveform, found: Refined, size: float, spreads: Array) -> 
     unexplained = found.misfit**2 - (EXPECTED * measured.noise) ** 2
     if unexplained > (MISFIT * size) ** 2:
         return Status.MISFIT
-    if not spreads[0] <= SPREAD:
+    at_end = np.abs(found.logs - np.clip(found.logs, np.log(LEAST) + 0.01, np.log(MOST) - 0.01))
+    if not spreads[0] <= SPREAD or at_end.any():
         return Status.UNCERTAIN
     return Status.OK if spreads[1] <= SPREAD else Status.PLASTIC_UNCERTAIN
