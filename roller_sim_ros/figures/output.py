@@ -6,6 +6,7 @@ import csv
 import math
 import textwrap
 from collections.abc import Callable
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -21,6 +22,7 @@ _CHARACTERS_PER_INCH = 19.5
 """Of the caption, at its size."""
 
 _DPI = 200
+_PAGE_DPI = 100
 
 
 def write(drawing: Drawing, title: str, folder: Path, stem: str) -> list[Path]:
@@ -50,18 +52,31 @@ def write(drawing: Drawing, title: str, folder: Path, stem: str) -> list[Path]:
     make_folder(folder)
     caption = f"{title} {drawing.caption}"
     figure = painted(drawing, caption)
-    said = {"png": "Description", "svg": "Description"}
     paths = []
-    for ending, key in said.items():
-        # No date: the same figure has the same bytes.
-        about: dict[str, Any] = {key: caption} | ({"Date": None} if ending == "svg" else {})
+    for ending in ("png", "svg"):
+        about: dict[str, Any] = {"Description": caption}
+        if ending == "svg":
+            about["Date"] = None  # the same figure has the same bytes
         path = folder / f"{stem}.{ending}"
         with mpl.rc_context(PAPER):
-            _save(path, lambda part, e=ending, a=about: figure.savefig(part, format=e, metadata=a))  # type: ignore[misc]
+            _save(path, partial(figure.savefig, format=ending, metadata=about))
         paths.append(path)
     path = folder / f"{stem}.csv"
-    _save(path, lambda part: _write_table(drawing, part))
+    _save(path, partial(_write_table, drawing))
     return [*paths, path]
+
+
+def write_picture(drawing: Drawing, title: str, path: Path) -> None:
+    """Write a drawing as one small PNG, for a page.
+
+    Raises
+    ------
+    RollerSimError
+        If it cannot be written.
+    """
+    figure = painted(drawing, f"{title} {drawing.caption}")
+    with mpl.rc_context(PAPER):
+        _save(path, partial(figure.savefig, format="png", dpi=_PAGE_DPI))
 
 
 def make_folder(folder: Path) -> None:

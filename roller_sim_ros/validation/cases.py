@@ -24,6 +24,9 @@ from roller_sim_ros.validation.study import (
     point,
 )
 
+_SPEED_M_S = 1.0
+"""An example of a travel speed."""
+
 SOFT_RUN = "run --shear-modulus-mpa 35 --plastic-mm 0.8"
 STIFF_RUN = "run --shear-modulus-mpa 80 --plastic-mm 0.5"
 
@@ -70,7 +73,7 @@ def asymmetric(study: Study) -> Finding:
     in_contact = tail.contact_state[int(np.argmax(tail.vertical))] != AIR
     return Finding.of(
         bool(up > -down and in_contact),
-        f"{up:.2f} g up, {down:.2f} g down; the peak is within the blow"
+        f"{up:.2f} g up, {-down:.2f} g down; the peak is within the blow"
         + ("" if in_contact else ": no, in the air"),
     )
 
@@ -81,8 +84,7 @@ def double_jump(study: Study) -> Finding:
     period, blows = values["period"], values["blows_per_period"]
     return Finding.of(
         period == 2 and blows == 1,
-        f"period {_period(period)}"
-        + (f", {blows:.0f} blow in it" if period else ", blows irregular"),
+        f"period {_period(period)}, {_blows(values)}",
         otherwise=Verdict.PARTLY if values["mode"] >= Mode.DOUBLE_JUMP else Verdict.FAILS,
     )
 
@@ -123,7 +125,7 @@ def peak_of_double_jump(study: Study) -> Finding:
     ratio = point(study.on(STIFF))["force_ratio_max"]
     return Finding.of(
         abs(ratio / 6.9 - 1.0) < 0.02,
-        f"{ratio:.2f}, {percent(ratio / 6.9 - 1.0)} off",
+        f"{ratio:.2f}, {percent(ratio / 6.9 - 1.0)}",
         otherwise=Verdict.PARTLY if abs(ratio / 6.9 - 1.0) < 0.1 else Verdict.FAILS,
     )
 
@@ -145,9 +147,22 @@ def every_other_cycle(study: Study) -> Finding:
     """Blows of the last example of Figure 17."""
     values = point(study.on(STIFF))
     one_in_two = values["period"] == 2 and values["blows_per_period"] == 1
+    return Finding.of(one_in_two, f"{_blows(values)} of {_period(values['period'])}")
+
+
+def double_separation(study: Study) -> Finding:
+    """Distance of the blows on the lane."""
+    values = {ground: point(study.on(ground)) for ground in (SOFT, STIFF)}
+    frequency = study.base.exciter.frequency_hz
+    apart = {
+        ground: _SPEED_M_S / frequency * found["period"] / max(found["blows_per_period"], 1.0)
+        for ground, found in values.items()
+    }
+    heavier = values[STIFF]["force_ratio_max"] / values[SOFT]["force_ratio_max"]
     return Finding.of(
-        one_in_two,
-        f"{values['blows_per_period']:.0f} blow in {_period(values['period'])} revolutions",
+        apart[STIFF] == 2.0 * apart[SOFT],
+        f"at {_SPEED_M_S:g} m/s {apart[STIFF] * 1e3:.0f} mm apart instead of {apart[SOFT] * 1e3:.0f}; the blows "
+        f"{heavier:.1f} times as heavy as on the softer ground",
     )
 
 
@@ -159,7 +174,7 @@ def biaxial(study: Study) -> Finding:
     up, down = tail.vertical.max() / GRAVITY_M_S2, tail.vertical.min() / GRAVITY_M_S2
     return Finding.of(
         bool(up > sideways),
-        f"horizontal ±{sideways:.2f} g, harmonic; vertical {down:.2f} to {up:.2f} g: a loop drawn out upwards by the "
+        f"horizontal ±{sideways:.2f} g, harmonic; vertical −{-down:.2f} to {up:.2f} g: a loop drawn out upwards by the "
         "blow; the paper's numbers are lost",
     )
 
@@ -225,6 +240,14 @@ def _period(revolutions: float) -> str:
     return f"{revolutions:.0f}" if revolutions > 0 else "none"
 
 
+def _blows(values: dict[str, float]) -> str:
+    """Return the blows in one period in words."""
+    if values["period"] == 0:
+        return "blows irregular"
+    count = values["blows_per_period"]
+    return f"{count:.0f} blow{'s' if count != 1 else ''} in each period"
+
+
 STATEMENTS = (
     Statement(
         "stable_on_soft",
@@ -261,6 +284,13 @@ STATEMENTS = (
         "Figure 15, second diagram",
         "the vibration is stable",
         stable_double_jump,
+        STIFF_RUN,
+    ),
+    Statement(
+        "double_separation",
+        "Drum accelerations",
+        "very heavy blows hit the ground with double the normal separation",
+        double_separation,
         STIFF_RUN,
     ),
     Statement(

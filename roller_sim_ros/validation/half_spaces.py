@@ -237,14 +237,12 @@ STATEMENTS = (
         "Dynamic load",
         "under a load that varies the amplitude relation changes and the deformation lags behind",
         lag,
-        "figures 8",
     ),
     Statement(
         "radiation",
         "Dynamic load",
         "energy flows away as elastic waves into the medium and along the surface",
         radiation,
-        "figures 8",
         half_space=False,
     ),
     Statement(

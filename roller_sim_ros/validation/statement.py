@@ -53,7 +53,7 @@ class Statement:
     check : callable
         Computes what comes out.
     command : str
-        What shows it, arguments of ``roller-sim``.
+        What shows it, arguments of ``roller-sim``; empty where only the check does.
     half_space : bool
         Whether another half space can give something else.
     sensitivity : bool
@@ -64,11 +64,11 @@ class Statement:
     where: str
     says: str
     check: Callable[[Study], Finding]
-    command: str
+    command: str = ""
     half_space: bool = True
     sensitivity: bool = False
 
 
 def percent(value: float, digits: int = 2) -> str:
     """Return a share as a reader wants it."""
-    return f"{100.0 * value:.{digits}g} %"
+    return f"{100.0 * value:.{digits}g} %".replace("-", "−")

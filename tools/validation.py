@@ -1,0 +1,89 @@
+"""Writes the table and the pictures of docs/validation.md: the paper's statements against what comes out.
+
+``tools/validation.py`` computes everything anew, in some two minutes on two cores; ``--check`` writes nothing and fails
+when the page is not what it would be; ``tools/validation.py KEY …`` shows single statements.
+"""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+
+from roller_sim_ros.figures.output import write_picture
+from roller_sim_ros.figures.registry import chosen
+from roller_sim_ros.validation.registry import STATEMENTS
+from roller_sim_ros.validation.statement import Statement
+from roller_sim_ros.validation.study import Study
+
+ROOT = Path(__file__).resolve().parent.parent
+PAGE = ROOT / "docs" / "validation.md"
+BEGIN, END = "<!-- begin statements -->\n", "<!-- end statements -->"
+
+HALF_SPACES = ("exact", "two-pole")
+PICTURES = (("16", "exact"), ("misleading", "exact"), ("sensitivity", "exact"))
+"""Figures that the docs show."""
+
+
+def row(statement: Statement) -> str:
+    """Return a statement as a row of the table."""
+    cells = [statement.where, statement.says]
+    for half_space in HALF_SPACES if statement.half_space else HALF_SPACES[:1]:
+        finding = statement.check(Study.of(half_space))
+        cells.append(f"**{finding.verdict.value}**: {finding.text}")
+    if not statement.half_space:
+        cells.append("the same")
+    shown = (
+        f"roller-sim {statement.command}"
+        if statement.command
+        else f"tools/validation.py {statement.key}"
+    )
+    cells += [f"`{shown}`", f"`{statement.key}`"]
+    return "| " + " | ".join(cell.replace("|", "\\|") for cell in cells) + " |\n"
+
+
+def table() -> str:
+    """Return the table."""
+    head = "| paper | says | exact | two-pole | shown by | key |\n|---|---|---|---|---|---|\n"
+    return head + "".join(row(statement) for statement in STATEMENTS)
+
+
+def page(text: str, content: str) -> str:
+    """Return the page with another table."""
+    before, rest = text.split(BEGIN)
+    _, after = rest.split(END)
+    return before + BEGIN + content + END + after
+
+
+def draw_pictures() -> None:
+    """Write the pictures of the docs."""
+    for name, half_space in PICTURES:
+        (entry,) = chosen([name])
+        path = ROOT / "docs" / "figures" / f"{entry.stem(half_space)}.png"
+        write_picture(entry.drawing(Study.of(half_space)), entry.caption_title(), path)
+
+
+def main(arguments: list[str]) -> int:
+    """Write, check or show; return the exit code."""
+    if arguments and arguments != ["--check"]:
+        known = {statement.key: statement for statement in STATEMENTS}
+        unknown = [key for key in arguments if key not in known]
+        if unknown:
+            print(f"no statement {unknown[0]!r}; there are {', '.join(known)}", file=sys.stderr)
+            return 2
+        for key in arguments:
+            print(row(known[key]), end="")
+        return 0
+    text = PAGE.read_text(encoding="utf-8")
+    new = page(text, table())
+    if arguments:
+        print(
+            "up to date" if new == text else "docs/validation.md is stale: run tools/validation.py"
+        )
+        return int(new != text)
+    PAGE.write_text(new, encoding="utf-8")
+    draw_pictures()
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))
