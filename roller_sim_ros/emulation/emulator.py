@@ -366,7 +366,7 @@ class Emulator:
             reading.excitation_hz,
             reading.eccentric_phase_rad,
             reading.phase_increment_rad,
-            self.session.exciter_status().amplitude_m,
+            self.session.amplitude_m,
             int(reading.clipped.sum()),
         ):
             self.meter_value = value

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from typing import Protocol
 
 import numpy as np
@@ -85,6 +86,9 @@ ORDERS: tuple[float, ...] = tuple(sorted({order for meter in METERS for order in
 IN_MESSAGE = ("cmv", "rmv")
 """Values that the meter's own message has fields for."""
 
+TRUE_METERS = tuple(meter for meter in METERS if meter.name in IN_MESSAGE)
+"""Those that the truth tells, too."""
+
 FURTHER: tuple[MeterDefinition, ...] = tuple(
     meter for meter in (*METERS, *DRUM_METERS) if meter.name not in IN_MESSAGE
 )
@@ -97,9 +101,9 @@ def column(meter: MeterDefinition) -> str:
     return f"{meter.name}_{unit}" if unit else meter.name
 
 
-def evaluate(harmonics: Harmonics) -> dict[str, float]:
-    """Return {name: value} of all meters that the acceleration suffices for."""
-    return {meter.name: meter.value(harmonics) for meter in METERS}
+def evaluate(harmonics: Harmonics, meters: Iterable[HarmonicMeter] = METERS) -> dict[str, float]:
+    """Return {name: value} of meters that the acceleration suffices for, all of them when not told."""
+    return {meter.name: meter.value(harmonics) for meter in meters}
 
 
 def evaluate_drum(motion: DrumMotion) -> dict[str, NDArray[np.float64]]:

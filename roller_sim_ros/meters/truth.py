@@ -10,7 +10,7 @@ import numpy as np
 from roller_sim_ros.meters.harmonics import HarmonicsWindow
 from roller_sim_ros.meters.mode import Mode, true_mode
 from roller_sim_ros.meters.period import TOLERANCE, PeriodWindow
-from roller_sim_ros.meters.registry import ORDERS, evaluate
+from roller_sim_ros.meters.registry import ORDERS, TRUE_METERS, evaluate
 from roller_sim_ros.meters.revolutions import Revolution, RevolutionCollector, Timing
 from roller_sim_ros.meters.summary import blows
 from roller_sim_ros.parameters import SAMPLES_PER_REVOLUTION
@@ -125,7 +125,7 @@ class TruthMeter:
                 last_sample, air_fraction=air_fraction, force_ratio_max=force_ratio_max
             )
         harmonics = self._harmonics.harmonics()
-        values = evaluate(harmonics) if harmonics.amplitude(1.0) > 0.0 else {}
+        values = evaluate(harmonics, TRUE_METERS) if harmonics.amplitude(1.0) > 0.0 else {}
         steady = self._frequencies.min() == self._frequencies.max()
         period = self._period.period() if steady else None
         return TruthValue(

@@ -115,7 +115,7 @@ class Journal:
                 block.shear_modulus_pa,
                 block.plastic_parameter_m,
                 block.excitation_hz,
-                self._session.exciter_status().amplitude_m,
+                self._session.amplitude_m,
                 value.cmv,
                 value.rmv,
                 value.air_fraction,

@@ -117,6 +117,11 @@ class Session:
         return self._samples
 
     @property
+    def amplitude_m(self) -> float:
+        """Nominal amplitude of the exciter at the end of the revolution that runs."""
+        return self._drive.amplitude_m
+
+    @property
     def unsettled_steps(self) -> int:
         """Steps whose phase changes did not settle; 0 in all sound runs."""
         return self._ground.unsettled_steps
