@@ -298,4 +298,5 @@ class CompactionMeter:
 
 def _steady(values: NDArray[np.float64]) -> bool:
     """Whether the values of a window are all known and the same."""
-    return bool(np.ptp(values) <= STEADY * values.max())
+    highest = values.max()
+    return bool(highest - values.min() <= STEADY * highest)

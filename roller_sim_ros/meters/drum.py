@@ -123,12 +123,12 @@ class DrumMotion:
         """Revolutions of the window."""
         return int(self.vertical.shape[-1]) // self.samples_per_revolution
 
-    @property
+    @cached_property
     def omega(self) -> NDArray[np.float64]:
         """Angular frequency of the eccentric, rad/s, shape (...)."""
         return 2.0 * math.pi * np.asarray(self.frequency_hz, dtype=np.float64)
 
-    @property
+    @cached_property
     def force_amplitude(self) -> NDArray[np.float64]:
         """F = m_d A ω² times the vertical share, N, shape (...)."""
         moment = self.drum.mass_kg * np.asarray(self.amplitude_m, dtype=np.float64)
