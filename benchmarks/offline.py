@@ -41,6 +41,10 @@ def measure(_options: Options) -> Table:
         for name, timed, aim in ways
     ]
     state, save_s, restore_s = _state()
+    note = (
+        f"A saved state of `{SCENARIO}` has {len(state) / 1e3:.0f} kB; it is saved in {seconds(save_s)} and restored "
+        f"in {seconds(restore_s)}."
+    )
     return Table(
         title="Without ROS",
         says=(
@@ -50,10 +54,7 @@ def measure(_options: Options) -> Table:
         ),
         columns=("way", *HALF_SPACES, "aim"),
         rows=rows,
-        notes=[
-            f"A saved state of `{SCENARIO}` has {len(state) / 1e3:.0f} kB; it is saved in {seconds(save_s)} and "
-            + f"restored in {seconds(restore_s)}."
-        ],
+        notes=[note],
     )
 
 
