@@ -56,5 +56,5 @@ def drawing(study: Study) -> Drawing:
         f"in settled motion; time is the parameter. {half_space_text(study.base)}; {machine_text(study.base)}.",
         table=stacked("ground", parts),
         paint=paint,
-        size_inches=(5.4, 4.2),
+        size_inches=(5.4, 4.6),
     )

@@ -13,6 +13,7 @@ from typing import Any
 import matplotlib as mpl
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
+from matplotlib.layout_engine import ConstrainedLayoutEngine
 
 from roller_sim_ros.errors import RollerSimError
 from roller_sim_ros.figures.drawing import Drawing
@@ -101,7 +102,9 @@ def make_folder(folder: Path) -> None:
 def painted(drawing: Drawing, caption: str) -> Figure:
     """Return the figure with its caption below the panels."""
     with mpl.rc_context(PAPER):
-        figure = Figure(figsize=drawing.size_inches, dpi=_DPI, layout="constrained")
+        figure = Figure(
+            figsize=drawing.size_inches, dpi=_DPI, layout=ConstrainedLayoutEngine(h_pad=0.07)
+        )
         FigureCanvasAgg(figure)
         drawing.paint(figure)
         width = int(drawing.size_inches[0] * _CHARACTERS_PER_INCH)

@@ -81,9 +81,9 @@ def paint_plane_axes(axes: Axes, plane: xarray.Dataset) -> tuple[Array, Array]:
     frequency = plane.frequency_hz.values
     amplitude = plane.amplitude_m.values * 1e3
     axes.set_xlim(frequency[0], frequency[-1])
-    axes.set_ylim(0.0, amplitude[-1])
+    axes.set_ylim(amplitude[0], amplitude[-1])
     axes.set_xticks(np.arange(15.0, 41.0, 5.0))
-    axes.set_yticks(np.arange(0.0, 2.6, 0.5))
+    axes.set_yticks(np.arange(0.5, 2.6, 0.5))
     axes.set_xlabel("excitation frequency $f$, Hz")
     axes.set_ylabel("nominal amplitude $A$, mm")
     return frequency, amplitude
