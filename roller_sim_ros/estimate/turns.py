@@ -31,7 +31,7 @@ class Turn:
     time_s : float
         Of phase zero at its start.
     excitation_hz : float
-        Its frequency: that stated with its samples, else one over its duration.
+        Its frequency: that stated with its samples, else from their times.
     amplitude_m : float
         Nominal amplitude of the exciter, NaN when unknown.
     vertical : ndarray, shape (N,)
@@ -144,12 +144,11 @@ class TurnCollector:
                 near = slice(max(0, first - BESIDE), last + BESIDE)
                 grid = self._next + np.arange(self._count) * step
                 vertical = CubicSpline(turns[near], values[near])(grid)
-            begins, ends = np.interp([self._next, self._next + 1.0], turns, times)
-            if on_grid:
-                begins = times[first]
+            begins = times[first] if on_grid else np.interp(self._next, turns, times)
             frequency = excitation_hz
             if math.isnan(frequency):
-                frequency = 1.0 / (ends - begins)
+                end = min(first + self._count, len(turns)) - 1
+                frequency = (turns[end] - turns[first]) / (times[end] - times[first])
             yield Turn(float(begins), float(frequency), amplitude_m, vertical, self._follows)
             self._follows = True
             self._next += 1.0

@@ -7,6 +7,7 @@ ones.
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -125,7 +126,7 @@ def waveform(revolutions: NDArray[np.floating]) -> Waveform:
             return Waveform(Status.CHAOTIC)
     whole = len(rows) // period
     vertical = rows[: whole * period].reshape(whole, -1).mean(axis=0)
-    return Waveform(Status.OK, period, vertical - vertical.mean(), sizes[period] / np.sqrt(whole))
+    return Waveform(Status.OK, period, vertical - vertical.mean(), sizes[period] / math.sqrt(whole))
 
 
 def _lowness(changes: Array) -> float:

@@ -76,8 +76,7 @@ def test_frequency_is_found_from_the_times() -> None:
             turns / 31.0, turns, wave(turns), excitation_hz=math.nan, amplitude_m=math.nan
         )
     )
-    # The end of the last is beyond the samples.
-    assert [turn.excitation_hz for turn in found[:-1]] == pytest.approx([31.0] * 3, rel=1e-9)
+    assert [turn.excitation_hz for turn in found] == pytest.approx([31.0] * 4, rel=1e-9)
 
 
 def test_a_missing_pulse_is_counted() -> None:
