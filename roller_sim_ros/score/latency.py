@@ -75,7 +75,8 @@ def find_latency(
         return Latency(
             int(lags[peak]), math.inf, f"longer than {lags[peak] * period_s:.1f} s, or unrelated"
         )
-    return Latency(int(lags[peak]), (lags[peak] + _between(correlation, peak)) * period_s)
+    lag = int(lags[peak])
+    return Latency(lag, (lag + _between(correlation, peak)) * period_s)
 
 
 def _correlation(value: NDArray[np.float64], true: NDArray[np.float64], lag: int) -> float:
