@@ -38,6 +38,7 @@ setup(
         shared("layouts", "*.*"),
         shared("scenarios", "*.yaml"),
         shared("scenarios", "*.schema.json"),
+        shared("security", "*.xml"),
     ],
     install_requires=[line for line in requirements if line and not line.startswith("#")],
     # Needed for one format of `roller-sim export` alone, which is large, and for `roller-sim fmu`.
