@@ -197,7 +197,9 @@ class _Reader:
             self._lines[f"{at}.{key}"] = line_of(key_node)
             if not isinstance(value_node, ScalarNode) or self._is_null(value_node):
                 raise ScenarioError(
-                    self._path, line_of(key_node), f"{at}.{key}: must be a single value"
+                    self._path,
+                    line_of(key_node),
+                    f"{shown_name(f'{at}.{key}')}: must be a single value",
                 )
             values[key] = scalar(self._path, value_node)
         return values
