@@ -24,7 +24,7 @@ from roller_sim_ros.traces.writer import TraceWriter
 from roller_sim_ros.wire.topics import TOPICS
 from roller_sim_ros.wire.types import decode, encode, schema
 
-TOPICS_BY_NAME = {topic.resolved("north"): topic for topic in TOPICS}
+TOPICS_BY_NAME = {topic.resolved("north"): topic for topic in TOPICS if not topic.of_simulated_time}
 
 
 def summary_of(path: Path):
