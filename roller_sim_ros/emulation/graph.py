@@ -71,8 +71,15 @@ def write(root: object) -> tuple[Nodes, bytes]:
     return writer.nodes, b"".join(writer.pieces)
 
 
-def read(nodes: Nodes, data: bytes) -> Any:
+def read(nodes: Nodes, data: bytes, check: Callable[[object], None] = lambda _: None) -> Any:
     """Return the object that `write` wrote.
+
+    Parameters
+    ----------
+    nodes, data
+        As `write` returned them.
+    check : callable
+        Called with every object of a class of the package, when all are filled; may raise what it likes.
 
     Raises
     ------
@@ -82,7 +89,7 @@ def read(nodes: Nodes, data: bytes) -> Any:
         If a declared parameter in it has a value that it cannot have.
     """
     try:
-        return _Reader(nodes, data).root()
+        return _Reader(nodes, data).root(check)
     except (TypeError, ValueError, KeyError, IndexError, AttributeError, OverflowError) as error:
         raise GraphError(f"{type(error).__name__}: {error}") from error
 
@@ -167,18 +174,20 @@ class _Reader:
         self._data = data
         self._made: list[Any] = []
         self._fill: list[Callable[[], None]] = []
-        self._groups: list[ParameterGroup | Record] = []
+        self._objects: list[Any] = []
         *items, (last, self._root) = nodes
         if last != "root":
             raise GraphError("there is no root")
         for kind, *rest in items:
             self._made.append(getattr(self, f"_make_{kind}")(*rest))
 
-    def root(self) -> Any:
+    def root(self, check: Callable[[object], None]) -> Any:
         for fill in self._fill:
             fill()
-        for group in self._groups:
-            group.__post_init__()
+        for item in self._objects:
+            if isinstance(item, ParameterGroup | Record):
+                item.__post_init__()
+            check(item)
         return self._value(self._root)
 
     def _value(self, item: Any) -> Any:
@@ -260,8 +269,7 @@ class _Reader:
         if issubclass(kind, tuple | Enum | BaseException):
             raise GraphError(f"{name} is no plain class")
         made = object.__new__(kind)
-        if isinstance(made, ParameterGroup | Record):
-            self._groups.append(made)
+        self._objects.append(made)
         if dataclasses.is_dataclass(made):
             declared = {field.name for field in dataclasses.fields(made)}
             if declared != attributes.keys():

@@ -9,7 +9,7 @@ from typing import Any
 # Imported for their classes, which a state may hold.
 import roller_sim_ros.scenario  # noqa: F401
 from roller_sim_ros import __version__
-from roller_sim_ros.emulation import graph
+from roller_sim_ros.emulation import graph, soundness
 from roller_sim_ros.emulation.emulator import Emulator
 from roller_sim_ros.errors import RollerSimError
 from roller_sim_ros.parameters import ParameterError
@@ -80,8 +80,11 @@ def restore(data: bytes, *, told: bool = False) -> Emulator:
     header, body = _opened(data)
     length = header["text_bytes"]
     try:
-        emulator = graph.read(json.loads(body[:length]), body[length:])
-    except (graph.GraphError, ParameterError, ValueError, RecursionError) as error:
+        emulator = graph.read(json.loads(body[:length]), body[length:], soundness.check)
+    except (
+        *(graph.GraphError, soundness.UnsoundError, ParameterError),
+        *(ValueError, RecursionError),
+    ) as error:
         raise SnapshotError(f"the saved state is damaged: {error}") from None
     if not isinstance(emulator, Emulator):
         raise SnapshotError("the saved state is damaged: it is not that of an emulator")

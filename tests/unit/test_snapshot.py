@@ -19,6 +19,7 @@ from roller_sim_ros.emulation.snapshot import MAGIC, SnapshotError, restore, sav
 from roller_sim_ros.faults import Span
 from roller_sim_ros.parameters import Configuration
 from roller_sim_ros.scenario import parse_scenario, start_of
+from roller_sim_ros.sensors import Choice
 from roller_sim_ros.session import CommandRefused, ExciterCommand, Moment
 from roller_sim_ros.wire.messages import Message
 
@@ -219,6 +220,67 @@ def test_parameters_of_a_forged_state_are_checked() -> None:
     state = rewritten(save(Emulator(Configuration(), start_ns=0)), change)
     with pytest.raises(SnapshotError, match="drum_mass_kg"):
         restore(state)
+
+
+def with_attribute(kind: str, name: str, value: Any) -> Callable[[list[Any]], None]:
+    """Return what gives an attribute of an object of a class another value; a list is that of a new node."""
+
+    def change(nodes: list[Any]) -> None:
+        node = next(item for item in nodes if item[0] == "object" and item[1].endswith(f":{kind}"))
+        assert name in node[2]
+        if isinstance(value, list):
+            nodes.insert(-1, value)
+            node[2][name] = [len(nodes) - 2]
+        else:
+            node[2][name] = value
+
+    return change
+
+
+SHORT = ["array", "float64", [1], 0, 8]
+THIN = ["array", "float64", [0, 1], 0, 0]
+
+
+@pytest.mark.parametrize(
+    ("model", "kind", "name", "value"),
+    [
+        ("exact", "Session", "_samples", 10**6),
+        ("exact", "Session", "_next_sample", -5),
+        ("exact", "ExactGround", "_samples", 10**6),
+        ("exact", "ExactGround", "state", SHORT),
+        ("exact", "ExactGround", "_sine", SHORT),
+        ("exact", "ExactGround", "_free", SHORT),
+        ("exact", "ExactGround", "_free_rate", SHORT),
+        ("exact", "ExactGround", "_bends", THIN),
+        ("rational", "RationalGround", "_modes", THIN),
+        ("rational", "RationalGround", "_bends", THIN),
+        ("two-pole", "TwoPoleGround", "_constants", SHORT),
+        ("two-pole", "RevolutionCollector", "_samples", THIN),
+        ("two-pole", "HarmonicsWindow", "_products", SHORT),
+        ("two-pole", "PeriodWindow", "_revolutions", THIN),
+        ("two-pole", "PeriodWindow", "window_revolutions", 10**9),
+        ("two-pole", "PeriodWindow", "_pushed", 0.5),
+        ("two-pole", "GaussMarkov", "_state", ["array", "float64", [0], 0, 0]),
+        ("two-pole", "LowPass", "_states", SHORT),
+        ("two-pole", "FixedRate", "_kept", THIN),
+        ("two-pole", "FixedRate", "_kept_from", 10**9),
+        ("two-pole", "_Revolution", "places", SHORT),
+    ],
+)
+def test_arrays_that_a_compiled_loop_would_leave_are_refused(
+    model: str, kind: str, name: str, value: Any
+) -> None:
+    sheet = {"sample_rate_hz": 1700.0, "drift_m_s2": 0.1, "noise_density": 1e-3}
+    roller = Emulator(
+        Configuration().changed({"half_space.model": model}),
+        start_ns=0,
+        sensors=(Choice("mems_50g", sheet),),
+    )
+    run(roller, 9)
+    state = save(roller)
+    restore(state)
+    with pytest.raises(SnapshotError, match="^the saved state is damaged: "):
+        restore(rewritten(state, with_attribute(kind, name, value)))
 
 
 class Harmful:
