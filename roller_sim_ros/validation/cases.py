@@ -11,6 +11,7 @@ from roller_sim_ros.meters import Mode
 from roller_sim_ros.offline.run import Tail
 from roller_sim_ros.parameters import GRAVITY_M_S2
 from roller_sim_ros.session.block import AIR
+from roller_sim_ros.soil_mechanics import contact_half_width
 from roller_sim_ros.validation.statement import Finding, Statement, Verdict, percent
 from roller_sim_ros.validation.study import (
     EXAMPLES_PA,
@@ -163,6 +164,22 @@ def double_separation(study: Study) -> Finding:
         apart[STIFF] == 2.0 * apart[SOFT],
         f"at {_SPEED_M_S:g} m/s {apart[STIFF] * 1e3:.0f} mm apart instead of {apart[SOFT] * 1e3:.0f}; the blows "
         f"{heavier:.1f} times as heavy as on the softer ground",
+    )
+
+
+def fresh_soil(study: Study) -> Finding:
+    """Advance per revolution against the width of the contact."""
+    configuration = study.on(SOFT)
+    radius, plastic = configuration.machine.drum_radius_m, configuration.soil.plastic_parameter_m
+    advance = _SPEED_M_S / configuration.exciter.frequency_hz
+    still = 2.0 * contact_half_width(plastic, radius)
+    blow = 2.0 * contact_half_width(plastic * point(configuration)["force_ratio_max"], radius)
+    needed = still * configuration.exciter.frequency_hz
+    return Finding.of(
+        advance >= still,
+        f"at {_SPEED_M_S:g} m/s the drum moves {advance * 1e3:.0f} mm a cycle at 35 MPa; its contact is "
+        f"{still * 1e3:.0f} mm wide under the static load and {blow * 1e3:.0f} mm at the peak, so that "
+        f"{needed:.1f} m/s would be needed",
     )
 
 
@@ -320,6 +337,12 @@ STATEMENTS = (
         "it may never occur if the excitation is low or the soil very soft",
         no_flight,
         f"{STIFF_RUN} --amplitude-mm 0.1",
+    ),
+    Statement(
+        "fresh_soil",
+        "Soil model",
+        "the roller is assumed fast enough to hit fresh soil every cycle",
+        fresh_soil,
     ),
     Statement(
         "energy_lost",

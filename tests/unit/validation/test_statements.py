@@ -39,6 +39,7 @@ FRESH = (
     "peak_of_double_jump",
     "full_cycle_in_the_air",
     "no_flight",
+    "fresh_soil",
 )
 """Statements that are computed again here: those without maps."""
 
