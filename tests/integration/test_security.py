@@ -265,7 +265,7 @@ def test_any_user_may_run_it_and_it_writes_only_where_it_is_told(
         process.kill()
         process.wait()
     # In memory: what DDS shares with other nodes, and the recording's process with the node.
-    memory = re.compile(r"/dev/shm/(fastrtps_|fastdds_|sem\.fast)|/memfd:")
+    memory = re.compile(r"/dev/shm/(fastrtps_|fastdds_|sem\.fast|lttng-)|/memfd:")
     new = of_the_stranger() - before
     left = open_files | new
     stray = {path for path in left if told not in path.parents and not memory.match(str(path))}
