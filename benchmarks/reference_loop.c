@@ -61,7 +61,7 @@ void two_pole(long samples, long first, double *state, const double *constants, 
     m.two_pole = true;
     m.natural = constants[NATURAL_FREQUENCY];
     m.quality = constants[QUALITY];
-    Motion motion_y, motion;
+    Motion motion_y = two_pole_motion(&m, 0.5 * m.h), motion = two_pole_motion(&m, m.h);
     Answer at_y = two_pole_answer(&m, 0.5 * m.h, &motion_y), at = two_pole_answer(&m, m.h, &motion);
     Joint joint = joint_over(&m, m.h);
     Turn half = turn_over(0.5 * m.h, m.omega), whole = turn_over(m.h, m.omega);
@@ -90,7 +90,7 @@ void two_pole(long samples, long first, double *state, const double *constants, 
         bool apex = s.v < 0.0 && r.v >= 0.0 && r.v - s.v > STILL_VELOCITY;
         if (changes || (apex && !(phase == AIR && r.d < r.e + s.datum))) {
             split.sine = sine[j], split.cosine = cosine[j], split.amplitude = amplitude;
-            phase = split_step(&m, &split, phase, &s, &unsettled_steps);
+            phase = split_step(&m, &split, phase, &s, r, &unsettled_steps);
         } else {
             s = moved_on(&m, &s, &r, phase);
             if (apex)
@@ -163,7 +163,7 @@ void exact(long samples, long first, double *state, const double *constants, con
         if (changes || (apex && !(phase == AIR && r.d < r.e + s.datum))) {
             split.sine = sine[j], split.cosine = cosine[j], split.amplitude = amplitude;
             split.e_0 = s.e, split.w_0 = s.w, split.e_1 = e_1, split.w_1 = w_1, split.a = a, split.b = b;
-            phase = split_step(&m, &split, phase, &s, &unsettled_steps);
+            phase = split_step(&m, &split, phase, &s, r, &unsettled_steps);
             for (int n = 0; n < split.count; n++)
                 add_bend(next, next_rate, memory, ramp_2, ramp, step, h, split.bends[n]);
         } else {

@@ -66,6 +66,15 @@ static inline Turn turn_over(double x, double omega) {
     return t;
 }
 
+/* Sine and cosine of an angle up to 2 pi/32, to rounding. */
+static inline void small_turn(double angle, double *sine, double *cosine) {
+    double y = angle * angle;
+    *sine = angle * (1.0 - y * (1.0 / 6.0 - y * (1.0 / 120.0 - y * (1.0 / 5040.0 - y * (1.0 / 362880.0 -
+                     y / 39916800.0)))));
+    *cosine = 1.0 - y * (0.5 - y * (1.0 / 24.0 - y * (1.0 / 720.0 - y * (1.0 / 40320.0 - y * (1.0 / 3628800.0 -
+                    y / 479001600.0)))));
+}
+
 static inline Moved exciter_motion(const Turn *t, double sine, double cosine, double amplitude, double rate) {
     Moved m;
     m.velocity = sine * (amplitude * t->cos_0 + rate * t->cos_1) + cosine * (amplitude * t->sin_0 + rate * t->sin_1);
@@ -75,15 +84,18 @@ static inline Moved exciter_motion(const Turn *t, double sine, double cosine, do
 }
 
 static inline Motion oscillation(double x, double decay, double stiffness) {
-    double square = decay * decay - stiffness, damped = exp(-decay * x), turn = sqrt(fabs(square)) * x;
+    double square = decay * decay - stiffness, turn = sqrt(fabs(square)) * x;
     double c2, even;
-    if (turn < 1e-4) {
-        c2 = damped * x * (1.0 + square * x * x / 6.0);
-        even = damped * (1.0 + 0.5 * square * x * x);
+    if (turn < 0.03) {
+        double damped = exp(-decay * x), y = square * x * x;
+        c2 = damped * x * (1.0 + y * (1.0 / 6.0 + y * (1.0 / 120.0 + y * (1.0 / 5040.0))));
+        even = damped * (1.0 + y * (0.5 + y * (1.0 / 24.0 + y * (1.0 / 720.0 + y / 40320.0))));
     } else if (square > 0.0) {
-        c2 = damped * sinh(turn) / turn * x;
-        even = damped * cosh(turn);
+        double slow = 0.5 * exp(turn - decay * x), fast = 0.5 * exp(-turn - decay * x);
+        c2 = (slow - fast) / turn * x;
+        even = slow + fast;
     } else {
+        double damped = exp(-decay * x);
         c2 = damped * sin(turn) / turn * x;
         even = damped * cos(turn);
     }
@@ -91,14 +103,24 @@ static inline Motion oscillation(double x, double decay, double stiffness) {
     return m;
 }
 
-static inline Answer two_pole_answer(const Model *m, double x, Motion *motion) {
+/* Free solutions at 2 x from those at x. */
+static inline Motion twice(Motion half, double stiffness) {
+    double both = stiffness * half.c2 * half.c2;
+    Motion m = {half.c1 * half.c1 - both, half.c2 * (half.c1 + half.c2_rate), half.c2_rate * half.c2_rate - both};
+    return m;
+}
+
+static inline Answer two_pole_answer(const Model *m, double x, const Motion *motion) {
     double stiffness = m->natural * m->natural, damping = m->natural / m->quality;
-    *motion = oscillation(x, 0.5 * damping, stiffness);
     double step = 1.0 - motion->c1;
     double ramp = x - motion->c2 - damping / stiffness * step;
     double ramp_2 = 0.5 * x * x - (step + damping * ramp) / stiffness;
     Answer answer = {m->compliance * ramp_2, m->compliance * ramp, m->compliance * step};
     return answer;
+}
+
+static inline Motion two_pole_motion(const Model *m, double x) {
+    return oscillation(x, 0.5 * m->natural / m->quality, m->natural * m->natural);
 }
 
 static inline Known two_pole_free(const Model *m, const State *s, const Motion *motion) {
@@ -123,17 +145,19 @@ static inline Joint joint_over(const Model *m, double x) {
     j.share = m->mass / total;
     j.decay = 0.5 * soil_mass * m->natural / m->quality / total;
     j.stiffness = 1.0 / (m->compliance * total);
-    j.motion = oscillation(x, j.decay, j.stiffness);
+    /* The Gauss points lie symmetrically about the middle. */
+    Motion half = oscillation(0.5 * x, j.decay, j.stiffness), apart = oscillation(offset * x, j.decay, j.stiffness);
+    Motion last = oscillation((1.0 - node[2]) * x, j.decay, j.stiffness);
+    j.motion = twice(half, j.stiffness);
+    double c2[3] = {half.c1 * apart.c2 + half.c2 * apart.c2_rate, half.c2, last.c2};
+    double c2_rate[3] = {half.c2_rate * apart.c2_rate - j.stiffness * half.c2 * apart.c2, half.c2_rate, last.c2_rate};
     for (int n = 0; n < 3; n++) {
-        Motion rest = oscillation((1.0 - node[n]) * x, j.decay, j.stiffness);
-        j.pull[n] = j.share * weight[n] * x * rest.c2;
-        j.pull_rate[n] = j.share * weight[n] * x * rest.c2_rate;
+        j.pull[n] = j.share * weight[n] * x * c2[n];
+        j.pull_rate[n] = j.share * weight[n] * x * c2_rate[n];
         j.node_time[n] = node[n] * x;
-        j.node_cos[n] = cos(m->omega * node[n] * x);
-        j.node_sin[n] = sin(m->omega * node[n] * x);
+        small_turn(m->omega * node[n] * x, &j.node_sin[n], &j.node_cos[n]);
     }
-    j.end_cos = cos(m->omega * x);
-    j.end_sin = sin(m->omega * x);
+    small_turn(m->omega * x, &j.end_sin, &j.end_cos);
     return j;
 }
 

@@ -13,7 +13,7 @@ enum { STEP_END, LOADING_ENDS, RELOADING, LIFT_OFF, CONTACT, APEX };
 #define STILL_SLOPE 1.0
 #define SHORTEST_PART 1e-6
 #define SHORTEST_PARABOLA 0.05
-#define ROOT_TOLERANCE 1e-8
+#define ROOT_CLOSE 1e-4
 #define ROOT_ITERATIONS 40
 
 typedef struct { double time, slope, curvature; } Bend;
@@ -51,7 +51,8 @@ static Known known_within(const Model *m, const Split *p, double x) {
 
 /* The part of a split step from t to t + x. */
 static Result part(const Model *m, const Split *p, int phase, double t, double x, double slope_before, const State *s) {
-    double cos_t = cos(m->omega * t), sin_t = sin(m->omega * t);
+    double cos_t, sin_t;
+    small_turn(m->omega * t, &sin_t, &cos_t);
     double sine = p->sine * cos_t + p->cosine * sin_t, cosine = p->cosine * cos_t - p->sine * sin_t;
     double amplitude = p->amplitude + m->rate * t;
     Answer at_y, at;
@@ -61,9 +62,9 @@ static Result part(const Model *m, const Split *p, int phase, double t, double x
             Joint joint = joint_over(m, x);
             return joint_part(m, &joint, s, sine, cosine, amplitude);
         }
-        Motion motion;
-        at_y = two_pole_answer(m, 0.5 * x, &motion);
-        known_y = two_pole_free(m, s, &motion);
+        Motion half = two_pole_motion(m, 0.5 * x), motion = twice(half, m->natural * m->natural);
+        at_y = two_pole_answer(m, 0.5 * x, &half);
+        known_y = two_pole_free(m, s, &half);
         at = two_pole_answer(m, x, &motion);
         known = two_pole_free(m, s, &motion);
         slope_before = 0.0;
@@ -89,32 +90,60 @@ static inline double event_value(int event, const Result *r, const State *s) {
     }
 }
 
-/* Time into the part at which the event happens: regula falsi, Illinois variant. */
+/* About where the cubic through values and rates at 0 and `length` falls through zero. */
+static inline double cubic_root(double length, double f_0, double rate_0, double f_1, double rate_1) {
+    double rise = f_1 - f_0, a = length * rate_0, b = length * rate_1;
+    double c_2 = 3.0 * rise - 2.0 * a - b, c_3 = a + b - 2.0 * rise, u = -f_0 / rise;
+    for (int n = 0; n < 2; n++)
+        u -= (f_0 + u * (a + u * (c_2 + u * c_3))) / (a + u * (2.0 * c_2 + 3.0 * u * c_3));
+    return length * u;
+}
+
+static inline double thrust_at(const Model *m, const Split *p, double t) {
+    double sin_t, cos_t;
+    small_turn(m->omega * t, &sin_t, &cos_t);
+    return (p->amplitude + m->rate * t) * (p->sine * cos_t + p->cosine * sin_t);
+}
+
+/* About where the event is, from the part that reaches over it. */
+static double guess(const Model *m, const Split *p, int event, double at_start, double at_end, double t, double length,
+                    const State *s, const Result *r) {
+    if (event == CONTACT)
+        return cubic_root(length, at_start, s->w - s->v, at_end, r->w - r->v);
+    if (event == LIFT_OFF)
+        return cubic_root(length, at_start, r->slope_start, at_end, r->slope_end);
+    if (event == APEX)
+        return cubic_root(length, at_start, thrust_at(m, p, t) - (m->load - s->force) * m->inverse_mass, at_end,
+                          thrust_at(m, p, t + length) - (m->load - r->force) * m->inverse_mass);
+    if (r->slope_start * r->slope_end < 0.0)
+        return length * r->slope_start / (r->slope_start - r->slope_end);
+    return length * at_start / (at_start - at_end);
+}
+
+/* Time into the part at which the event happens: inverse quadratic interpolation in a bracket, from a guess. */
 static double locate(const Model *m, const Split *p, int event, double at_start, double at_end, double length,
-                     int phase, double t, double slope_before, const State *s) {
+                     int phase, double t, double slope_before, const State *s, const Result *whole) {
     if (at_start <= 0.0)
         return 0.0;
-    double low = 0.0, f_low = at_start, high = length, f_high = at_end, x = high;
-    int side = 0;
-    for (int n = 0; n < ROOT_ITERATIONS; n++) {
-        double last = x;
+    double low = 0.0, f_low = at_start, high = length, f_high = at_end;
+    double x = guess(m, p, event, at_start, at_end, t, length, s, whole);
+    if (!(low < x && x < high))
         x = high - f_high * (high - low) / (f_high - f_low);
-        if (fabs(x - last) < ROOT_TOLERANCE * m->h)
-            break;
+    for (int n = 0; n < ROOT_ITERATIONS; n++) {
         Result r = part(m, p, phase, t, x, slope_before, s);
-        double f = event_value(event, &r, s);
-        if (f <= 0.0) {
-            high = x, f_high = f;
-            if (side == -1)
-                f_low *= 0.5;
-            side = -1;
-        } else {
-            low = x, f_low = f;
-            if (side == 1)
-                f_high *= 0.5;
-            side = 1;
+        double f = event_value(event, &r, s), last = x;
+        double below = (x - low) / (f - f_low), above = (high - x) / (f_high - f);
+        x = last - f * below + f * f_low * (above - below) / (f_high - f_low);
+        if (f <= 0.0)
+            high = last, f_high = f;
+        else
+            low = last, f_low = f;
+        if (!(low < x && x < high)) {
+            x = high - f_high * (high - low) / (f_high - f_low);
+            if (!(low < x && x < high))
+                return last;
         }
-        if (f_high == f_low)
+        if (fabs(x - last) < ROOT_CLOSE * m->h)
             break;
     }
     return x;
@@ -127,8 +156,8 @@ static inline void renew(const Model *m, State *s, int phase) {
     s->q = phase == AIR ? fresh : s->d - s->e - s->datum;
 }
 
-/* A step in which phases change; returns the phase at its end. */
-static int split_step(const Model *m, Split *p, int phase, State *s, long *unsettled_steps) {
+/* A step in which phases change, r what it comes to if none did; returns the phase at its end. */
+static int split_step(const Model *m, Split *p, int phase, State *s, Result r, long *unsettled_steps) {
     static const double still[] = {0.0, STILL_VELOCITY, STILL_SLOPE, 0.0, 0.0, 0.0};
     double t = 0.0, slope_before = 0.0;
     p->count = 0;
@@ -137,7 +166,8 @@ static int split_step(const Model *m, Split *p, int phase, State *s, long *unset
         double rest = m->h - t, length = rest, at_start = 0.0;
         if (rest <= 0.0)
             break;
-        Result r = part(m, p, phase, t, rest, slope_before, s);
+        if (split > 0)
+            r = part(m, p, phase, t, rest, slope_before, s);
         int event = STEP_END;
         if (split == MAX_SPLITS)
             ++*unsettled_steps;
@@ -152,14 +182,14 @@ static int split_step(const Model *m, Split *p, int phase, State *s, long *unset
         if (event != STEP_END) {
             double at_end = event_value(event, &r, s);
             if (at_end < -still[event])
-                length = locate(m, p, event, at_start, at_end, rest, phase, t, slope_before, s);
+                length = locate(m, p, event, at_start, at_end, rest, phase, t, slope_before, s, &r);
             else if (event == LOADING_ENDS && r.slope_start + r.slope_end < -STILL_SLOPE)
                 length = 0.0;
             else
                 event = STEP_END;
         }
         if (s->v < 0.0 && r.v >= 0.0 && r.v - s->v > STILL_VELOCITY && split < MAX_SPLITS) {
-            double apex = locate(m, p, APEX, -s->v, -r.v, rest, phase, t, slope_before, s);
+            double apex = locate(m, p, APEX, -s->v, -r.v, rest, phase, t, slope_before, s, &r);
             if (apex < length || event == STEP_END)
                 event = APEX, length = apex;
         }
@@ -183,10 +213,8 @@ static int split_step(const Model *m, Split *p, int phase, State *s, long *unset
         }
         if (event == LOADING_ENDS) {
             phase = UNLOADING;
-            if (m->two_pole) {
-                double sine = p->sine * cos(m->omega * t) + p->cosine * sin(m->omega * t);
-                s->force = fmax(joint_force(m, s->e, s->w, (p->amplitude + m->rate * t) * sine), 0.0);
-            }
+            if (m->two_pole)
+                s->force = fmax(joint_force(m, s->e, s->w, thrust_at(m, p, t)), 0.0);
         } else if (event == RELOADING || event == CONTACT) {
             phase = LOADING;
         } else if (event == LIFT_OFF) {

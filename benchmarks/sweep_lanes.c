@@ -22,7 +22,7 @@ static void load_lane(Lanes *x, int n, const Model *m, const double *constants, 
     double h = m->h, omega = m->omega, amplitude = constants[VERTICAL_SINE] * constants[START_ACCELERATION];
     Turn whole = turn_over(h, omega), half = turn_over(0.5 * h, omega);
     Moved sine = exciter_motion(&whole, 1.0, 0.0, amplitude, 0.0), cosine = exciter_motion(&whole, 0.0, 1.0, amplitude, 0.0);
-    Motion motion, motion_y;
+    Motion motion_y = two_pole_motion(m, 0.5 * h), motion = two_pole_motion(m, h);
     Answer at_y = two_pole_answer(m, 0.5 * h, &motion_y), at = two_pole_answer(m, h, &motion);
     Joint joint = joint_over(m, h);
     double cube = h * h * h * m->inverse_mass, fourth = cube * h;
@@ -151,7 +151,8 @@ void lanes(long revolutions, double *states, const double *constants, long const
                 if (x.waits[n] > 0.0) {
                     State s = {x.d[n], x.v[n], x.force[n], x.e[n], x.w[n], x.q[n], x.datum[n]};
                     split.sine = sine[j], split.cosine = cosine[j], split.amplitude = x.amplitude[n];
-                    x.phase[n] = split_step(&models[n], &split, (int)x.phase[n], &s, &unsettled);
+                    Result whole = part(&models[n], &split, (int)x.phase[n], 0.0, models[n].h, 0.0, &s);
+                    x.phase[n] = split_step(&models[n], &split, (int)x.phase[n], &s, whole, &unsettled);
                     x.d[n] = s.d, x.v[n] = s.v, x.force[n] = s.force, x.e[n] = s.e, x.w[n] = s.w, x.q[n] = s.q;
                     x.datum[n] = s.datum, x.waits[n] = 0.0, waiting -= 1.0;
                 }
