@@ -7,6 +7,7 @@ from collections.abc import Callable, Iterable
 from contextlib import suppress
 from typing import Any
 
+from rclpy.event_handler import PublisherEventCallbacks
 from rclpy.node import Node
 from rclpy.publisher import Publisher
 
@@ -54,6 +55,9 @@ class Outlet:
         self.unsent = 0
         self._node = node
         self._now_ns = now_ns
+        self._lasting = {it.name for it in topics.TOPICS if it.durability == "transient_local"}
+        # Every handler of an event costs each step of a client its share; readers are warned by their own side, too.
+        self._events = PublisherEventCallbacks(use_default_callbacks=not pacing.simulated_time)
         try:
             for topic in topics.TOPICS:
                 if _wanted(topic, pacing):
@@ -64,10 +68,12 @@ class Outlet:
         self._names = {name: item.topic_name for name, item in self.publishers.items()}
 
     def send(self, messages: Iterable[Message]) -> None:
-        """Publish messages, in order, and hand them to the recording."""
+        """Publish messages, in order, and hand them to the recording; what nobody would get is only recorded."""
         for message in messages:
+            publisher = self.publishers[message.topic]
             try:
-                self.publishers[message.topic].publish(message.data)
+                if message.topic in self._lasting or publisher.get_subscription_count():
+                    publisher.publish(message.data)
             except RuntimeError:
                 # The middleware gives up where a reader or the machine is too slow for it.
                 self.unsent += 1
@@ -92,6 +98,7 @@ class Outlet:
                 message_type(topic.type_name),
                 topic.name,
                 profile(topic.qos(pacing)),
+                event_callbacks=self._events,
                 qos_overriding_options=overridable(),
             )
 

@@ -12,6 +12,10 @@ class Publisher:
     def __init__(self, topic: str) -> None:
         self.topic_name = f"/{topic.lstrip('/')}"
         self.sent: list[bytes] = []
+        self.readers = 1
+
+    def get_subscription_count(self) -> int:
+        return self.readers
 
     def publish(self, data: bytes) -> None:
         if data == b"too much":
@@ -20,7 +24,8 @@ class Publisher:
 
 
 class Node:
-    def create_publisher(self, _type, topic, _qos, qos_overriding_options):
+    def create_publisher(self, _type, topic, _qos, event_callbacks, qos_overriding_options):
+        assert event_callbacks
         assert qos_overriding_options
         return Publisher(topic)
 
@@ -43,6 +48,18 @@ def test_refused_message_is_counted_and_recorded(monkeypatch):
     assert out.unsent == 1
     assert out.publishers["meter"].sent == [b"a", b"b"]
     assert out.trace.taken == [("/meter", b"a"), ("/meter", b"too much"), ("/meter", b"b")]
+
+
+def test_what_nobody_hears_is_recorded_and_what_lasts_is_sent(monkeypatch):
+    monkeypatch.setattr(outlet, "message_type", lambda name: name)
+    out = Outlet(Node(), Pacing())
+    out.trace = Trace()
+    for name in ("meter", "soil"):
+        out.publishers[name].readers = 0
+        out.send([Message(name, "any", b"a", 1)])
+    assert out.publishers["meter"].sent == []
+    assert out.publishers["soil"].sent == [b"a"]
+    assert out.trace.taken == [("/meter", b"a"), ("/soil", b"a")]
 
 
 def test_clock_is_there_in_simulated_time_and_refusable(monkeypatch):
