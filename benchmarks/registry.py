@@ -13,6 +13,7 @@ BENCHMARKS = {
     "solve_ivp": "the two-pole kernel against scipy's solve_ivp at matched accuracy",
     "sweep": "lanes against eight lanes in C, whole maps, threads against processes, memory",
     "offline": "times real time without ROS, with and without messages; what a saved state costs",
+    "estimate": "a window of 16 revolutions, beside one run of the model",
     "node": "the real-time node: lateness against a bare loop, share of a core, lost samples",
     "start": "from the start of roller-sim sim to the first sample, beside a plain publisher",
     "startup": "import times of the commands and the heaviest imports",

@@ -44,13 +44,14 @@ def write_figure(estimate: TraceEstimate, path: Path) -> None:
                 f"revolutions of the eccentric, from {shown.start_s:.2f} s; {found.status.label}"
             )
             axes.set_ylabel("g")
-            axes.legend()
+            axes.legend(loc="upper right")
         for name, title, scale, value, spread in (
             ("modulus", "(b) G, MPa", 1e-6, "shear_modulus_pa", "shear_modulus_spread_pa"),
             ("plastic", "(c) p, mm", 1e3, "plastic_parameter_m", "plastic_spread_m"),
         ):
             axes = panels[name]
             axes.set_title(f"{title}, ± its spread; grey: does not stand")
+            top = 0.0
             for stands, colour in ((False, GREY), (True, BLUE)):
                 windows = [
                     item
@@ -58,6 +59,7 @@ def write_figure(estimate: TraceEstimate, path: Path) -> None:
                     if item.estimate.status.stands is stands
                     and np.isfinite(getattr(item.estimate, spread))
                 ]
+                top = max([top, *(scale * getattr(item.estimate, value) for item in windows)])
                 axes.errorbar(
                     [item.start_s for item in windows],
                     [scale * getattr(item.estimate, value) for item in windows],
@@ -68,7 +70,7 @@ def write_figure(estimate: TraceEstimate, path: Path) -> None:
                     color=colour,
                 )
             axes.set_xlabel("time, s")
-            axes.set_ylim(bottom=0.0)
+            axes.set_ylim(0.0, 1.25 * top or 1.0)
 
 
 def _shown(windows: list[WindowOfTrace]) -> WindowOfTrace | None:

@@ -79,7 +79,6 @@ class Orbit:
         self._drive.target_amplitude_m = known.exciter.amplitude_m
         self._samples = samples
         self._fresh = True
-        self.repeats = False
         first = on(known, *np.exp(logs))
         self._ground = self._made(first)
         self._run_in(first.soil)
@@ -116,7 +115,7 @@ class Orbit:
         Returns
         -------
         ndarray, shape (period × samples,)
-            m/s²; `repeats` tells whether it is a period of the motion.
+            m/s².
         """
         soil = on(self._known, *np.exp(logs)).soil
         self._ground.begin(self._drive.next_revolution(), soil)
@@ -132,7 +131,6 @@ class Orbit:
             done += before + looked_at
             rows = records.samples[0, -kept:, VERTICAL].reshape(2, -1)
             change = float(np.abs(rows[1] - rows[0]).max())
-            self.repeats = change <= REPEATS * float(np.abs(rows[1]).max())
-            if self.repeats or done >= MOST_REVOLUTIONS:
+            if change <= REPEATS * float(np.abs(rows[1]).max()) or done >= MOST_REVOLUTIONS:
                 return np.asarray(rows[1] - rows[1].mean())
             before = 0

@@ -58,15 +58,12 @@ class Refined:
         The motion's vertical acceleration without its mean, m/s².
     misfit : float
         Root mean square of modelled less measured, m/s².
-    repeats : bool
-        Whether the modelled motion repeats with the measured period.
     """
 
     logs: Array
     covariance: Array
     modelled: Array
     misfit: float
-    repeats: bool
 
 
 def refine(
@@ -166,7 +163,6 @@ class _Matching:
             covariance=covariance(np.asarray(found.jac), found.fun),
             modelled=self._measured + found.fun,
             misfit=float(np.sqrt(np.mean(found.fun**2))),
-            repeats=self._orbit.repeats,
         )
 
 

@@ -44,6 +44,9 @@ TACHO_TYPE = "roller_sim_ros/msg/TachoPulse"
 PROGRESS_MESSAGES = 200
 """Messages between two reports of progress."""
 
+REACH = 16 * SAMPLES_PER_REVOLUTION
+"""Samples by which a piece may be late."""
+
 TOGETHER = 64
 """Imu samples that are looked at together."""
 
@@ -271,12 +274,13 @@ class _Pass:
         since_s = (piece.stamp_ns - self._start_ns) / NANOSECONDS
         number = np.arange(len(piece), dtype=np.float64)
         times = since_s + number * piece.sample_period_s
+        end = piece.first_sample + len(piece)
         if self._next_sample is not None and piece.first_sample != self._next_sample:
-            if piece.first_sample < self._next_sample <= piece.first_sample + len(piece):
-                # Repeated samples were seen already.
+            if end <= self._next_sample <= piece.first_sample + REACH:
+                # Repeated, or come too late: what is far back is a sender that was restarted.
                 return
             self._interrupt()
-        self._next_sample = piece.first_sample + len(piece)
+        self._next_sample = end
         if self._pulses is None:
             turns = (piece.phase_rad + number * piece.phase_increment_rad) / (2.0 * math.pi)
             frequency = piece.excitation_hz
