@@ -20,10 +20,10 @@ from roller_sim_ros.site import Position
 from roller_sim_ros.traces.metadata import run_metadata
 from roller_sim_ros.traces.registration import register_all
 from roller_sim_ros.traces.writer import TraceWriter
-from roller_sim_ros.wire import instruments, messages
+from roller_sim_ros.wire import instruments, messages, topics
 from roller_sim_ros.wire.imu import imu
 from roller_sim_ros.wire.messages import Message
-from roller_sim_ros.wire.types import schema
+from roller_sim_ros.wire.types import encode, message_class, schema
 
 START_NS = 1_700_000_000_000_000_000
 SAMPLES = 16
@@ -54,6 +54,14 @@ def make_block(index: int) -> Block:
     )
 
 
+def _travel_command() -> Message:
+    """``cmd_vel``, which only others publish."""
+    vector = message_class("geometry_msgs/msg/Vector3")
+    type_name = topics.CMD_VEL.type_name
+    twist = message_class(type_name)(vector(1.0, 0.0, 0.0), vector(0.0, 0.0, 0.0))
+    return Message(topics.CMD_VEL.name, type_name, encode(twist, type_name), START_NS)
+
+
 def make_messages(blocks: int) -> list[Message]:
     """All topics: facts at the start, blocks, a meter value now and then, one of each rare kind."""
     configuration = Configuration()
@@ -63,6 +71,8 @@ def make_messages(blocks: int) -> list[Message]:
         messages.soil_facts(configuration, START_NS),
         messages.parameter_event("/roller", {"soil.shear_modulus_pa": 35e6}, START_NS),
         messages.exciter_command(ExciterCommand(True, 28.0, 1.6e-3), START_NS),
+        messages.run_input(0, "release", "{}", b"", START_NS),
+        _travel_command(),
         messages.exciter_state(status, START_NS),
         messages.applied_change(Applied(0, "exciter.frequency_hz", 28.0), START_NS),
         messages.diagnostic_array([messages.Diagnostic("pacing", values={"x": 1.5})], START_NS),

@@ -7,11 +7,13 @@ from typing import Any
 
 import numpy as np
 import pytest
+from mcap.opcode import Opcode
 
 from roller_sim_ros.emulation import Emulator
 from roller_sim_ros.offline.recording import record
 from roller_sim_ros.parameters import Configuration
 from roller_sim_ros.traces.columns import Layout, Messages, read_messages
+from roller_sim_ros.traces.frames import FrameReader, open_trace
 from roller_sim_ros.traces.metadata import run_metadata
 from roller_sim_ros.traces.reader import TraceReader
 from roller_sim_ros.wire.types import decode, typestore
@@ -104,7 +106,11 @@ def test_a_message_of_another_shape_is_told_apart(trace: Path) -> None:
 def test_damage_costs_its_chunk_only(trace: Path, tmp_path: Path) -> None:
     whole = sum(len(chunk["/meter"].starts) for chunk in read_messages(trace, {"/meter"}))
     data = bytearray(trace.read_bytes())
-    data[len(data) // 2] ^= 0xFF
+    with open_trace(trace) as stream:
+        frames = list(FrameReader(stream, len(data)))
+    chunks = [frame for frame in frames if frame.opcode == Opcode.CHUNK]
+    assert len(chunks) > 2
+    data[chunks[1].offset + len(chunks[1].content) // 2] ^= 0xFF
     path = tmp_path / "damaged.mcap"
     path.write_bytes(data)
     left = sum(

@@ -106,7 +106,7 @@ def test_conventions_of_rosbag2(record) -> None:
         assert profile["durability"] == {"transient_local": 1, "volatile": 2}[topic.durability]
         assert channel.metadata["topic_type_hash"] == schema(topic.type_name).type_hash
     # One schema for the two facts, not two.
-    assert len(summary.schemas) == len({topic.type_name for topic in TOPICS})
+    assert len(summary.schemas) == len({topic.type_name for topic in TOPICS_BY_NAME.values()})
 
 
 def test_summary_and_indexes_are_complete(record) -> None:
