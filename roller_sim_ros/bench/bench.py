@@ -199,7 +199,7 @@ def _follow(
         raise BenchError(
             f"nobody listens to drum/acceleration after {PATIENCE_S:g} s: the meter has to"
         )
-    client.run(runs, PATIENCE_S, wait=meter is not None)
+    client.run(runs, lambda: meter is not None and meter.code is None, PATIENCE_S)
 
 
 def _runs(process: Process) -> Callable[[], bool]:

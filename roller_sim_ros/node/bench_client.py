@@ -118,17 +118,19 @@ class BenchClient:
             message_type(type_name), topic, self._on_answer, quality, raw=True
         )
 
-    def run(self, going_on: Callable[[], bool], patience_s: float, *, wait: bool) -> int:
+    def run(
+        self, going_on: Callable[[], bool], answers: Callable[[], bool], patience_s: float
+    ) -> int:
         """Step the roller revolution by revolution until its process ends; return how many there were.
 
         Parameters
         ----------
         going_on : callable
             Whether the roller's process runs.
+        answers : callable
+            Whether there is a meter whose message is worth waiting for after a step, as long as it usually takes.
         patience_s : float
             How long a step may take.
-        wait : bool
-            Wait for the meter's message after each step, as long as it usually takes.
 
         Raises
         ------
@@ -155,7 +157,7 @@ class BenchClient:
                     raise RollerSimError(f"the roller refuses to go on: {result.error_message}")
                 break
             revolutions += 1
-            if wait:
+            if answers():
                 silent = not self._wait_for_answer(before, going_on, silent=silent)
         return revolutions
 
