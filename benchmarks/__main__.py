@@ -11,6 +11,9 @@ from benchmarks.options import Options
 from benchmarks.registry import BENCHMARKS, measure
 from benchmarks.report import PATH, section, write
 
+QUICK_S = 8.0
+"""Length of what is measured in real time when it is only tried out; the exciter has run up by then."""
+
 
 def main() -> int:
     parser = argparse.ArgumentParser(
@@ -36,11 +39,18 @@ def main() -> int:
         default=Options.minutes,
         help="node: how long lost samples are counted, in min (default %(default)g)",
     )
+    parser.add_argument(
+        "--quick", action="store_true", help="try out in a minute whether all works; rough figures"
+    )
     arguments = parser.parse_args()
     unknown = [name for name in arguments.names if name not in BENCHMARKS]
     if unknown:
         parser.error(f"no benchmark {unknown[0]!r}: there are {', '.join(BENCHMARKS)}")
-    options = Options(seconds=arguments.seconds, minutes=arguments.minutes)
+    if arguments.quick and arguments.write:
+        parser.error("--quick: figures that rough are not to be written")
+    options = Options(arguments.seconds, arguments.minutes)
+    if arguments.quick:
+        options = Options(seconds=QUICK_S, minutes=QUICK_S / 60.0, quick=True)
     machine = facts()
     failed = False
     for name in BENCHMARKS:

@@ -25,12 +25,12 @@ AGREEMENT = 1e-9
 _AIMS = {"two-pole": "≤ 2, 30 ns", "exact": "≤ 2, 80 ns"}
 
 
-def measure(_: Options) -> Table:
+def measure(options: Options) -> Table:
     """Time both kernels on both of the paper's soils."""
     rows: list[tuple[str, ...]] = []
     for model in KERNELS:
         for case in CASES:
-            rows += _rows(model, case)
+            rows += _rows(model, case, options)
     return Table(
         title="Kernel",
         says=(
@@ -44,7 +44,7 @@ def measure(_: Options) -> Table:
     )
 
 
-def _rows(model: str, case: Case) -> list[tuple[str, ...]]:
+def _rows(model: str, case: Case, options: Options) -> list[tuple[str, ...]]:
     ground = settled_ground(model, case)
     call = many_revolutions(model, ground)
     other = call.copy()
@@ -57,7 +57,8 @@ def _rows(model: str, case: Case) -> list[tuple[str, ...]]:
         ("Session, 128 samples", _session(model, case, SAMPLES_PER_REVOLUTION)),
         (f"Session, {BLOCK} samples", _session(model, case, BLOCK)),
     ):
-        times = paired(in_c, function, rounds=ROUNDS if way == "bare" else ROUNDS // 2)
+        rounds = options.rounds(ROUNDS if way == "bare" else ROUNDS // 2)
+        times = paired(in_c, function, rounds=rounds)
         ours, plain = times.second_s / call.samples, times.first_s / call.samples
         found.append(
             (

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True)
 class Options:
-    """Lengths of the measurements in real time.
+    """How long the measurements are.
 
     Attributes
     ----------
@@ -15,7 +15,14 @@ class Options:
         Of lateness, at each frequency.
     minutes : float
         Of counting lost samples.
+    quick : bool
+        Only whether all works: the figures are rough.
     """
 
     seconds: float = 60.0
     minutes: float = 5.0
+    quick: bool = False
+
+    def rounds(self, number: int) -> int:
+        """Return how often something is repeated that is to be repeated so often."""
+        return max(2, number // 10) if self.quick else number

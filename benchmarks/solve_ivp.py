@@ -40,11 +40,11 @@ class Solver:
     seconds: float
 
 
-def measure(_: Options) -> Table:
+def measure(options: Options) -> Table:
     """Compare on both of the paper's soils."""
     rows, notes = [], []
     for case in CASES:
-        row, note = _compared(case)
+        row, note = _compared(case, options)
         rows.append(row)
         notes.append(note)
     return Table(
@@ -63,7 +63,7 @@ def measure(_: Options) -> Table:
     )
 
 
-def _compared(case: Case) -> tuple[tuple[str, ...], str]:
+def _compared(case: Case, options: Options) -> tuple[tuple[str, ...], str]:
     ground, ours = _kernel(case)
     settled = _plain(case)
     settled.run(SETTLING, method="DOP853", rtol=CONVERGED)
@@ -77,7 +77,7 @@ def _compared(case: Case) -> tuple[tuple[str, ...], str]:
     def plain() -> None:
         copy.deepcopy(settled).run(TIMED, method=solver.method, rtol=solver.rtol)
 
-    times = paired(kernel, plain, rounds=ROUNDS, repeat_first=1000)
+    times = paired(kernel, plain, rounds=options.rounds(ROUNDS), repeat_first=1000)
     row = (
         case.name,
         seconds(times.first_s),

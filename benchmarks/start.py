@@ -18,13 +18,14 @@ LISTENING_S = 0.5
 """How long the subscriber is there before the publisher starts."""
 
 
-def measure(_options: Options) -> Table:
+def measure(options: Options) -> Table:
     """Start the node and a plain publisher in turn."""
     published, heard, used, plain = [], [], [], []
+    starts = options.rounds(STARTS)
     with tempfile.TemporaryDirectory() as name, domain() as number:
         folder = Path(name)
         _start(folder, number)  # compiles what the disk does not hold yet
-        for _ in range(STARTS):
+        for _ in range(starts):
             first, second, cpu = _start(folder, number)
             published.append(first)
             heard.append(second)
@@ -35,7 +36,7 @@ def measure(_options: Options) -> Table:
         says=(
             "From the start of the process, caches warm, to the first block: when `roller-sim sim` "
             f"published it (by its recording) and when a subscriber that was there {LISTENING_S:g} s "
-            f"before got the first one; beside a plain rclpy publisher of the same message. {STARTS} "
+            f"before got the first one; beside a plain rclpy publisher of the same message. {starts} "
             "starts of each in turn. What lies between published and heard, up to 3 s, is Fast DDS "
             "discovery, which also the plain publisher waits for."
         ),

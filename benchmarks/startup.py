@@ -16,10 +16,11 @@ from benchmarks.errors import BenchmarkError
 from benchmarks.options import Options
 from benchmarks.processes import PATIENCE_S, domain, environment
 from benchmarks.table import Table, seconds
+from roller_sim_ros.commands import COMMANDS
 
 ROUNDS = 5
 HEAVIEST = 10
-HELP = ("", "sim", "run", "analyze", "play", "recover")
+HELP = ("", *COMMANDS)
 
 _LINE = re.compile(r"^import time:\s+(\d+) \|\s+\d+ \| +(\S+)$", re.MULTILINE)
 
@@ -27,14 +28,15 @@ Times = dict[str, float]
 """Seconds by top-level package, of the modules' own code."""
 
 
-def measure(_options: Options) -> Table:
+def measure(options: Options) -> Table:
     """Import what `sim` and `run` really import, several times in turn."""
+    rounds = options.rounds(ROUNDS)
     sims: list[Times] = []
     runs: list[Times] = []
     helps: dict[str, list[float]] = {command: [] for command in HELP}
     with tempfile.TemporaryDirectory() as name, domain() as number:
         folder = Path(name)
-        for _ in range(ROUNDS):
+        for _ in range(rounds):
             sims.append(_imports(folder, number, "sim", ends=False))
             runs.append(_imports(folder, number, "run", "--revolutions", "2"))
             for command, times in helps.items():
@@ -49,7 +51,7 @@ def measure(_options: Options) -> Table:
         says=(
             "Time that `roller-sim sim` and `roller-sim run` spend importing until the first status "
             "line and the end, by the package whose code runs, without what that imports in turn; the "
-            f"{HEAVIEST} heaviest. Medians of {ROUNDS}; tracing makes imports slower."
+            f"{HEAVIEST} heaviest. Medians of {rounds}; tracing makes imports slower."
         ),
         columns=("package", "sim", "run"),
         rows=[*rows],

@@ -23,6 +23,9 @@ from roller_sim_ros.sweep.task import DONE
 ROUNDS = 30
 SETTLING_REVOLUTIONS = 300
 POINTS_A_SIDE = 101
+SMALL_SIDE = 5
+"""Of a map that only has everything compiled."""
+QUICK_SIDE = 15
 
 _MOTIONS = {
     "nothing happens (A = 0)": (0.0, 80e6, 0.5e-3),
@@ -33,20 +36,22 @@ _MOTIONS = {
 _AIMS = {"two-pole": "< 5 s", "exact": "< 20 s", "rational": ""}
 
 
-def measure(_: Options) -> Table:
+def measure(options: Options) -> Table:
     """Time the lanes, then whole maps."""
     cores = len(os.sched_getaffinity(0))
-    rows = [_lanes(name, *motion) for name, motion in _MOTIONS.items()]
+    side = QUICK_SIDE if options.quick else POINTS_A_SIDE
+    rounds = options.rounds(ROUNDS)
+    rows = [_lanes(name, rounds, *motion) for name, motion in _MOTIONS.items()]
     for model, aim in _AIMS.items():
         with ThreadPoolExecutor(cores) as threads:
-            _map(model, threads, small=True)
-            rows.append(_row(f"{model} map, {cores} threads", _map(model, threads), aim))
+            _map(model, threads, SMALL_SIDE)
+            rows.append(_row(f"{model} map, {cores} threads", _map(model, threads, side), aim))
     with ProcessPoolExecutor(cores, mp_context=get_context("spawn")) as processes:
-        _map("two-pole", processes, small=True)
-        timing = _map("two-pole", processes)
+        _map("two-pole", processes, SMALL_SIDE)
+        timing = _map("two-pole", processes, side)
         rows.append(_row(f"two-pole map, {cores} processes", timing, "", here=False))
     with ThreadPoolExecutor(cores) as threads:
-        full = _map("two-pole", threads, early_stop=False)
+        full = _map("two-pole", threads, side, early_stop=False)
     rows.append(_row(f"two-pole map, {cores} threads, all revolutions", full, ""))
     peak = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024
     return Table(
@@ -54,7 +59,7 @@ def measure(_: Options) -> Table:
         says=(
             f"Lanes: CPU time per sample of one of {LANES} two-pole trajectories around 28 Hz, {REVOLUTIONS} "
             f"revolutions, beside a loop in C over {LANES} lanes (`sweep_lanes.c`, {' '.join(FLAGS)}) "
-            f"whose states agree to {AGREEMENT:g}. Maps: {POINTS_A_SIDE} × {POINTS_A_SIDE} points of frequency "
+            f"whose states agree to {AGREEMENT:g}. Maps: {side} × {side} points of frequency "
             "(15 … 40 Hz) and amplitude (0.1 … 2.5 mm) at G 80 MPa, p 0.5 mm, 500 revolutions each; wall time "
             "beside CPU time over cores, which is what the wall time comes to when nobody else uses them."
         ),
@@ -76,7 +81,9 @@ class _Timing:
         self.cpu_s = cpu_s
 
 
-def _lanes(name: str, amplitude: float, modulus: float, plastic: float) -> tuple[str, ...]:
+def _lanes(
+    name: str, rounds: int, amplitude: float, modulus: float, plastic: float
+) -> tuple[str, ...]:
     configurations = [
         Configuration().changed(
             {
@@ -90,7 +97,7 @@ def _lanes(name: str, amplitude: float, modulus: float, plastic: float) -> tuple
     ]
     runs = EightRuns(configurations, SETTLING_REVOLUTIONS)
     runs.check()
-    times = paired(runs.in_c, runs.ours, rounds=ROUNDS)
+    times = paired(runs.in_c, runs.ours, rounds=rounds)
     return (
         f"lanes, {name}",
         seconds(times.second_s / runs.samples),
@@ -100,11 +107,8 @@ def _lanes(name: str, amplitude: float, modulus: float, plastic: float) -> tuple
     )
 
 
-def _map(
-    model: str, executor: Executor, *, small: bool = False, early_stop: bool = True
-) -> _Timing:
-    """Compute the map of Figure 16; a small one only to have everything compiled."""
-    side = 5 if small else POINTS_A_SIDE
+def _map(model: str, executor: Executor, side: int, *, early_stop: bool = True) -> _Timing:
+    """Compute the map of Figure 16 with so many points a side."""
     base = Configuration().changed(
         {
             "half_space.model": model,
