@@ -1,0 +1,132 @@
+"""The figures and the table of docs/controllers.md: each controller in a scenario, and the scenario without one.
+
+python -m examples.controllers.figures                    # docs/figures/controller_*.png, and the table
+python -m examples.controllers.figures --only jump_guard --scenario soft_to_stiff --seed 7 --frequency-hz 30
+"""
+
+from __future__ import annotations
+
+import argparse
+from collections.abc import Callable
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+from matplotlib.axes import Axes
+from numpy.typing import NDArray
+
+from examples.controllers.force_limiter import ForceLimiter
+from examples.controllers.jump_guard import JumpGuard
+from examples.controllers.measurement import Law
+from examples.controllers.model_based import ModelBased
+from examples.controllers.offline import alone, best_constant_mm, drive, jumping
+from examples.controllers.phase_tracker import PhaseTracker
+from roller_sim_ros.analysis.panels import BLUE, GREY, LIGHT, drawn_figure
+from roller_sim_ros.scenario import Scenario, SiteMap, read_scenario
+from roller_sim_ros.scenario.shipped import scenario_path
+
+LAWS: dict[str, Callable[[], Law]] = {
+    "jump_guard": JumpGuard,
+    "phase_tracker": PhaseTracker,
+    "force_limiter": ForceLimiter,
+    "model_based": ModelBased,
+}
+
+Pick = Callable[[SiteMap], NDArray[np.float64]]
+PANELS: tuple[tuple[str, Pick], ...] = (
+    ("(a) Amplitude of the exciter, mm", lambda it: it.amplitude_m * 1e3),
+    ("(b) Frequency of the exciter, Hz", lambda it: it.frequency_hz),
+    ("(c) True RMV", lambda it: it.rmv),
+    ("(d) True F_max/F_stat", lambda it: it.force_ratio_max),
+)
+
+
+def draw(name: str, scenario: Scenario, without: SiteMap, under: SiteMap, path: Path) -> None:
+    """Draw amplitude, frequency, RMV and F_max/F_stat over the chainage, with and without a controller."""
+    with drawn_figure(path) as figure:
+        figure.suptitle(
+            f"{name} in {scenario.title}; G {_range(under.shear_modulus_pa * 1e-6)} MPa; seed {scenario.seed}",
+            fontsize=8.0,
+            color=GREY,
+        )
+        panels = figure.subplots(2, 2, sharex=True)
+        for axes, (title, pick) in zip(panels.flat, PANELS, strict=True):
+            axes.set_title(title)
+            axes.plot(without.chainage_m, pick(without), color=GREY, label="without", zorder=1)
+            axes.plot(under.chainage_m, pick(under), color=BLUE, label=f"with {name}", zorder=2)
+            _shade_jumps(axes, without)
+        panels[0, 0].set_ylim(bottom=0.0)
+        panels[0, 0].legend(loc="lower left")
+        panels[0, 1].set_yticks(range(15, 36, 5))
+        panels[1, 0].set_yscale("log")
+        panels[1, 0].set_ylim(0.1, 400.0)
+        panels[1, 1].set_ylim(bottom=0.0)
+        for axes in panels[1]:
+            axes.set_xlabel("chainage, m (shaded: double jump without the controller)")
+        panels[0, 0].set_xlim(0.0, float(under.chainage_m.max()))
+
+
+def _shade_jumps(axes: Axes, site_map: SiteMap) -> None:
+    axes.fill_between(
+        site_map.chainage_m,
+        0,
+        1,
+        where=list(jumping(site_map.mode, site_map.rmv)),
+        transform=axes.get_xaxis_transform(),
+        color=LIGHT,
+        linewidth=0,
+        zorder=0,
+    )
+
+
+def _range(values: NDArray[np.float64]) -> str:
+    return f"{values.min():.0f} to {values.max():.0f}"
+
+
+def row(name: str, site_map: SiteMap) -> str:
+    """Return what came out as a row of a table."""
+    jumps = jumping(site_map.mode, site_map.rmv)
+    known = np.isfinite(site_map.force_ratio_max)
+    return (
+        f"| {name} | {100.0 * jumps.mean():.1f} % | {1e3 * site_map.amplitude_m.mean():.2f} mm "
+        f"| {_range(site_map.frequency_hz)} Hz | {site_map.force_ratio_max[known].max():.1f} |"
+    )
+
+
+def main() -> None:
+    """Draw the figures and print the table."""
+    parser = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
+    parser.add_argument(
+        "--out", type=Path, default=Path("docs/figures"), help="folder of the figures (%(default)s)"
+    )
+    parser.add_argument(
+        "--only", choices=tuple(LAWS), help="one of the controllers; all when left out"
+    )
+    parser.add_argument("--scenario", default="soft_to_stiff", help="name or file (%(default)s)")
+    parser.add_argument("--seed", type=int, help="another seed than the scenario's")
+    parser.add_argument(
+        "--frequency-hz", type=float, help="another frequency, Hz, than the scenario's"
+    )
+    arguments = parser.parse_args()
+    scenario = read_scenario(scenario_path(arguments.scenario))
+    if arguments.seed is not None:
+        scenario = replace(scenario, seed=arguments.seed)
+    if arguments.frequency_hz is not None:
+        exciter = replace(scenario.exciter, frequency_hz=arguments.frequency_hz)
+        scenario = replace(scenario, exciter=exciter)
+    arguments.out.mkdir(parents=True, exist_ok=True)
+    without = alone(scenario)
+    print(f"largest constant amplitude that never jumps: {best_constant_mm(scenario):.2f} mm")
+    print("| controller | double jump | mean amplitude | frequency | largest F_max/F_stat |")
+    print("|---|---|---|---|---|")
+    print(row("none", without))
+    for name in [arguments.only] if arguments.only else LAWS:
+        under = drive(scenario, LAWS[name]())
+        print(row(name, under), flush=True)
+        draw(name, scenario, without, under, arguments.out / f"controller_{name}.png")
+
+
+if __name__ == "__main__":
+    main()
