@@ -15,6 +15,7 @@ from roller_sim_ros.faults import FAULTS
 from roller_sim_ros.parameters import PARAMETERS, Configuration, Pacing, Quantity, Value
 from roller_sim_ros.parameters.configuration import GROUPS
 from roller_sim_ros.parameters.quantity import ParameterGroup, declared
+from roller_sim_ros.score.limits import Limits
 from roller_sim_ros.sensors import SENSORS
 from roller_sim_ros.wire.topics import TOPICS, Direction, Topic
 from tools.generated import write_or_check
@@ -52,6 +53,13 @@ the reason; where nobody can know whether two that exclude each other will meet,
 `faults` says so. What comes twice or in the wrong order are messages, so it goes by the size of the blocks."""
 
 
+LIMITS_TEXT = """\
+`roller-sim score` and `roller-sim bench` take them from a YAML file (`--limits`), one `name: value` a line; what it
+leaves out has its default. A limit that does not matter is set so wide that it always holds. All defaults are
+assumptions of this project: what a meter has to keep stands on its data sheet. The rows that they decide:
+[score.md](score.md)."""
+
+
 def contents() -> dict[str, str]:
     """Return {path from the root: text} of all generated files."""
     default = Configuration()
@@ -60,6 +68,7 @@ def contents() -> dict[str, str]:
         "docs/topics.md": topics_page(),
         "docs/sensors.md": sensors_page(),
         "docs/faults.md": faults_page(),
+        "docs/limits.md": limits_page(),
         "README.md": readme((ROOT / "README.md").read_text(encoding="utf-8")),
         "config/paper_roller.yaml": parameter_file(
             "The paper's 10 t roller ('Roller data') at its nominal frequency and amplitude.",
@@ -218,6 +227,20 @@ def faults_page() -> str:
         if parameters:
             lines += ["", f"## Parameters of `{name}`", ""]
             lines += _table(("name", "default", "unit", "bounds", "what it is"), parameters)
+    return "\n".join([*lines, ""])
+
+
+def limits_page() -> str:
+    """Return the page of all limits of the verdict on a meter."""
+    lines = [
+        "# Limits of the verdict",
+        "",
+        f"Generated {GENERATED} in `roller_sim_ros/score/limits.py`.",
+        "",
+        LIMITS_TEXT,
+        "",
+        *_table(("limit", "default", "unit", "bounds", "what it is"), _group_rows(Limits)),
+    ]
     return "\n".join([*lines, ""])
 
 
