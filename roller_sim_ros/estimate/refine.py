@@ -169,9 +169,10 @@ class _Matching:
 def covariance(jacobian: Array, left: Array) -> Array:
     """Return the covariance of parameters fitted by least squares, from what the fit leaves.
 
-    What a wrong model leaves is alike from sample to sample, so that there is less in it than its samples would say:
-    the sandwich (JᵀJ)⁻¹ Jᵀ S J (JᵀJ)⁻¹ with S from the autocovariance of what is left over `CORRELATED` samples,
-    tapered (Newey & West 1987); periodic, as the waveform is. For white noise that is s² (JᵀJ)⁻¹.
+    For white noise s² (JᵀJ)⁻¹. What a wrong model leaves is alike from sample to sample, so that there is less in it
+    than its samples would say: where the sandwich (JᵀJ)⁻¹ Jᵀ S J (JᵀJ)⁻¹, with S from the autocovariance of what is
+    left over `CORRELATED` samples, tapered (Newey & West 1987) and periodic as the waveform is, gives a larger spread,
+    that one holds. It may not give a smaller one: the fit has taken out of what is left just what J shows.
 
     Parameters
     ----------
@@ -191,4 +192,7 @@ def covariance(jacobian: Array, left: Array) -> Array:
     spectrum = np.fft.fft(autocovariance * taper).real
     filtered = np.fft.ifft(spectrum[:, np.newaxis] * np.fft.fft(jacobian, axis=0), axis=0).real
     inverse = np.linalg.inv(normal)
-    return np.asarray(inverse @ (jacobian.T @ filtered) @ inverse)
+    white = float(autocovariance[0]) * inverse
+    sandwich = inverse @ (jacobian.T @ filtered) @ inverse
+    wider = np.sqrt(np.maximum(1.0, np.diag(sandwich) / np.maximum(np.diag(white), 1e-300)))
+    return np.asarray(white * np.outer(wider, wider))
