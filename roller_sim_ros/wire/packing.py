@@ -7,7 +7,7 @@ lengths is made once. Types with lists of messages or of strings, which come sel
 from __future__ import annotations
 
 import struct
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from functools import lru_cache
 from operator import attrgetter
 from typing import Any
@@ -38,9 +38,8 @@ _FORMATS = {
 _COUNT = "I"
 _LAYOUTS = 64
 """Of one type, kept for further messages with the same lengths."""
-
-Bytes = Callable[[Any], tuple[int, bytes]]
-"""Returns how many elements a string or array has, and their bytes."""
+_TEXTS = 64
+"""Strings that come again and again, as frames do."""
 
 
 class Packer:
@@ -63,7 +62,7 @@ class Packer:
         names: list[str] = []
         # One item for each value that is packed: its format, or the element's size where it is bytes.
         formats: list[str | int] = []
-        self._variable: list[tuple[int, Bytes, int | None]] = []
+        self._variable: list[tuple[int, np.dtype[Any] | None, int | None]] = []
         for name, node, what, fixed in _leaves(type_name, "", definitions):
             if node == Nodetype.BASE and what != "string":
                 names.append(name)
@@ -73,8 +72,8 @@ class Packer:
                 # This place is the count's.
                 names.append(name)
                 formats.append(_COUNT)
-            convert = _text if what == "string" else _elements(what)
-            self._variable.append((len(names), convert, fixed))
+            dtype = None if what == "string" else np.dtype("<" + _FORMATS[what])
+            self._variable.append((len(names), dtype, fixed))
             names.append(name)
             formats.append(1 if what == "string" else struct.calcsize(_FORMATS[what]))
         getter = attrgetter(*names)
@@ -85,8 +84,16 @@ class Packer:
         """Return a message as little-endian CDR with its four header bytes."""
         values = list(self._values(message))
         lengths = []
-        for place, convert, fixed in self._variable:
-            count, data = convert(values[place])
+        for place, dtype, fixed in self._variable:
+            value = values[place]
+            if dtype is None:
+                data = _text(value)
+                count = len(data)
+            else:
+                if value.dtype is not dtype and value.dtype != dtype:
+                    value = value.astype(dtype)
+                data = value.tobytes()
+                count = len(value)
             values[place] = data
             if fixed is None:
                 values[place - 1] = count
@@ -127,17 +134,6 @@ def _layout(formats: Sequence[str | int], lengths: Sequence[int]) -> struct.Stru
     return struct.Struct(text)
 
 
-def _text(value: str) -> tuple[int, bytes]:
-    data = value.encode("utf-8") + b"\x00"
-    return len(data), data
-
-
-def _elements(what: str) -> Bytes:
-    dtype = np.dtype("<" + _FORMATS[what])
-
-    def elements(values: Any) -> tuple[int, bytes]:
-        if values.dtype != dtype:
-            values = values.astype(dtype)
-        return len(values), values.tobytes()
-
-    return elements
+@lru_cache(_TEXTS)
+def _text(value: str) -> bytes:
+    return value.encode("utf-8") + b"\x00"
