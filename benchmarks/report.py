@@ -12,8 +12,9 @@ _HEAD = """\
 # Benchmarks
 
 Written by `make bench ARGS=--write`; a single one by `make bench ARGS="kernel --write"`, which leaves the others as
-they are. Times are medians, of pure computation in CPU time. The machines are shared and noisy, so what counts is the
-ratio of two things that took turns in one run. Nothing here is asserted by a test.
+they are. `make bench ARGS=--quick` only tries all out, in some minutes. Times are medians, of pure computation in CPU
+time. The machines are shared and noisy, so what counts is the ratio of two things that took turns in one run. Nothing
+here is asserted by a test.
 """
 
 
