@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from functools import partial
 from itertools import pairwise
 
 import numpy as np
@@ -20,6 +21,10 @@ from tests.integration.harness import entry, recorded, values
 LASTING = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
 
 
+def offered(find, name):
+    return [item for item in find(name) if item.node_name == "roller_sim"]
+
+
 def test_every_topic_is_offered_as_the_table_says(visitor):
     visitor.spin_until(lambda: visitor.node.count_publishers("/drum/acceleration"))
     for topic in TOPICS:
@@ -31,11 +36,7 @@ def test_every_topic_is_offered_as_the_table_says(visitor):
             if published
             else visitor.node.get_subscriptions_info_by_topic
         )
-
-        def offered(find=find, name=topic.resolved()):
-            return [item for item in find(name) if item.node_name == "roller_sim"]
-
-        (info,) = visitor.spin_until(offered)
+        (info,) = visitor.spin_until(partial(offered, find, topic.resolved()))
         assert info.topic_type == topic.type_name
         wanted = topic.qos(Pacing())
         assert info.qos_profile.reliability.name.lower() == wanted.reliability
