@@ -11,6 +11,7 @@ from pathlib import Path
 from typing import Any
 
 import matplotlib as mpl
+import numpy as np
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 from matplotlib.layout_engine import ConstrainedLayoutEngine
@@ -134,6 +135,6 @@ def _write_table(drawing: Drawing, path: Path) -> None:
 
 def _text(value: Any) -> str:
     """Return a value with as many digits as anyone reads; empty where there is none."""
-    if isinstance(value, float):
+    if isinstance(value, (float, np.floating)):
         return "" if math.isnan(value) else f"{value:.8g}"
     return str(value)

@@ -64,18 +64,15 @@ def first_amplitudes(found: xarray.Dataset, periods: tuple[int, ...]) -> Array:
     return np.array([amplitudes[int(np.argmax(row))] if row.any() else math.nan for row in has])
 
 
-def island(found: xarray.Dataset) -> NDArray[np.bool_]:
-    """Return the leftmost region of period 4 and more that has a gap to the chaos on its right."""
+def longer_periods(found: xarray.Dataset) -> NDArray[np.bool_]:
+    """Return the region of period 4 and more that reaches farthest to the left, single points left out."""
     longer = unstable(found) & (found.period.values != 2)
     parts, count = label(longer, structure=np.ones((3, 3)))
-    sizes = [int(np.count_nonzero(parts == number)) for number in range(1, count + 1)]
-    if not sizes:
-        return np.zeros_like(longer)
     smallest = max(3, longer.size // 2000)
     leftmost = sorted(
         (int(np.flatnonzero((parts == number).any(axis=1))[0]), number)
         for number in range(1, count + 1)
-        if sizes[number - 1] >= smallest
+        if np.count_nonzero(parts == number) >= smallest
     )
     return np.asarray(parts == leftmost[0][1]) if leftmost else np.zeros_like(longer)
 
@@ -148,7 +145,7 @@ def resonance_falls(study: Study) -> Finding:
 
 
 def instability_at_resonance(study: Study) -> Finding:
-    """What is unstable at 15 to 18 Hz, and where the island lies."""
+    """What is unstable at 15 to 18 Hz, and where longer periods begin."""
     found = plane(study)
     frequency, amplitude = found.frequency_hz.values, found.amplitude_m.values * _MM
     band = (frequency >= BAND_HZ[0]) & (frequency <= BAND_HZ[1])
@@ -160,13 +157,14 @@ def instability_at_resonance(study: Study) -> Finding:
             f", from {amplitude[columns.min()]:.2f} mm and {frequency[band][rows.min()]:.1f} Hz on "
             f"(period {_periods(found.period.values[band][inside])})"
         )
-    part = island(found)
-    if part.any():
-        rows, columns = np.nonzero(part)
-        text += (
-            f"; the leftmost region of longer periods begins at {frequency[rows.min()]:.1f} Hz, "
-            f"{amplitude[columns[rows.argmin()]]:.2f} mm"
-        )
+    part = longer_periods(found)
+    columns = np.flatnonzero(part.any(axis=0))
+    if len(columns):
+        ends = [
+            f"{frequency[int(np.argmax(part[:, column]))]:.1f} Hz at {amplitude[column]:.2f} mm"
+            for column in (columns[0], columns[-1])
+        ]
+        text += f"; the left edge of longer periods goes from {ends[0]} to {ends[1]}"
     share = float(inside.mean())
     return Finding.of(share > 0.1, text, otherwise=Verdict.PARTLY if share > 0.0 else Verdict.FAILS)
 

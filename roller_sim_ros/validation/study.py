@@ -87,11 +87,6 @@ class Study:
         """Return the study of the paper's roller on a kind of half space, by its name."""
         return cls(Configuration().changed({"half_space.model": half_space}), **others)
 
-    @property
-    def half_space(self) -> str:
-        """Kind of half space."""
-        return self.base.half_space.model
-
     def on(self, ground: Ground, **exciter: Any) -> Configuration:
         """Return the roller on a ground, with other values of the exciter where given."""
         soil = replace(self.base.soil, shear_modulus_pa=ground[0], plastic_parameter_m=ground[1])

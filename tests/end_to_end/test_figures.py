@@ -84,6 +84,10 @@ def test_maps_are_over_one_plane(folder: Path) -> None:
             assert (values.min(), values.max()) == bounds
 
 
+def test_whole_numbers_are_written_as_such(folder: Path) -> None:
+    assert set(read(folder / "figure_16_two_pole.csv")["period_revolutions"]) <= set("01248")
+
+
 def test_data_are_those_of_the_model(folder: Path) -> None:
     table = read(folder / "figure_19_two_pole.csv")
     row = int(len(table["cmv"]) * 0.8)

@@ -167,7 +167,7 @@ def a_plane(period: np.ndarray, k_s: np.ndarray | None = None) -> xarray.Dataset
     )
 
 
-def test_first_amplitudes_and_the_island() -> None:
+def test_first_amplitudes_and_the_region_of_longer_periods() -> None:
     period = np.ones((6, 8))
     period[1, 4:6] = 4
     period[2, 4:6] = 0
@@ -177,10 +177,10 @@ def test_first_amplitudes_and_the_island() -> None:
     first = planes.first_amplitudes(found, (2,))
     assert np.isnan(first[:4]).all()
     assert first[4] == found.amplitude_m.values[2]
-    island = planes.island(found)
-    assert island.any()
-    assert np.array_equal(np.flatnonzero(island.any(axis=1)), [1, 2])
-    assert not planes.island(a_plane(np.ones((6, 8)))).any()
+    region = planes.longer_periods(found)
+    assert region.any()
+    assert np.array_equal(np.flatnonzero(region.any(axis=1)), [1, 2])
+    assert not planes.longer_periods(a_plane(np.ones((6, 8)))).any()
 
 
 def test_resonance_is_where_stiffness_and_inertia_meet() -> None:
