@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, field
-from dataclasses import replace as with_values
 
 import numpy as np
 from numpy.typing import NDArray
@@ -109,23 +108,20 @@ def _estimate(measured: Waveform, found: Refined) -> WindowEstimate:
     size = float(np.sqrt(np.mean(measured.vertical**2)))
     modulus, plastic = (float(value) for value in np.exp(found.logs))
     spreads = np.sqrt(np.diag(found.covariance))
-    estimate = WindowEstimate(
+    both = float(spreads[0] * spreads[1])
+    return WindowEstimate(
         status=_status(measured, found, size, spreads),
         shear_modulus_pa=modulus,
         plastic_parameter_m=plastic,
         shear_modulus_spread_pa=float(modulus * spreads[0]),
         plastic_spread_m=float(plastic * spreads[1]),
+        correlation=float(found.covariance[0, 1]) / both if 0.0 < both < math.inf else math.nan,
         period=measured.period,
         misfit_m_s2=found.misfit,
         misfit_share=found.misfit / size,
         noise_m_s2=measured.noise,
         measured=measured.vertical,
         modelled=found.modelled,
-    )
-    if not (np.isfinite(spreads).all() and spreads.min() > 0.0):
-        return estimate
-    return with_values(
-        estimate, correlation=float(found.covariance[0, 1] / (spreads[0] * spreads[1]))
     )
 
 

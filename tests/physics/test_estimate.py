@@ -21,7 +21,7 @@ from roller_sim_ros.parameters import Configuration
 from tools.estimate_accuracy import UNKNOWN, Trip, random_trips, round_trip
 
 Result = tuple[Trip, WindowEstimate, float]
-POINTS = 125
+POINTS = 115
 """Of which at least 100 are periodic."""
 
 
