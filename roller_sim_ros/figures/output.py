@@ -121,8 +121,9 @@ def _save(path: Path, save: Callable[[Path], object]) -> None:
         save(part)
         part.replace(path)
     except OSError as error:
-        part.unlink(missing_ok=True)
         raise RollerSimError(f"{path}: cannot be written: {error.strerror or error}") from None
+    finally:
+        part.unlink(missing_ok=True)
 
 
 def _write_table(drawing: Drawing, path: Path) -> None:
