@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
+from itertools import pairwise
 from typing import TypeVar
 
 import numpy as np
@@ -14,7 +15,7 @@ from roller_sim_ros.score.limits import Limits
 from roller_sim_ros.score.truth import FaultWindow, Truth, sound
 
 SILENT_INTERVALS = 2.5
-"""Usual intervals between a meter's messages after which it is silent."""
+"""Usual intervals between a meter's messages; in a longer pause it is silent."""
 
 
 @dataclass(frozen=True)
@@ -117,13 +118,17 @@ class Evidence:
 
     @cached_property
     def silent(self) -> NDArray[np.bool_]:
-        """Where the last message is longer ago than the meter's messages usually are apart."""
+        """Where a message was due and none came, in pauses that are longer than those that the meter usually makes."""
         places = np.flatnonzero(self.values.given)
+        silent = np.ones(len(self.truth), dtype=np.bool_)
         if len(places) < 2:
-            return np.ones(len(self.truth), dtype=np.bool_)
+            return silent
         usual = float(np.median(np.diff(places)))
-        last = np.maximum.accumulate(np.where(self.values.given, np.arange(len(self.truth)), -1))
-        return (np.arange(len(self.truth)) - last > SILENT_INTERVALS * usual) | (last < 0)
+        silent[places[0] :] = False
+        for last, following in pairwise([*places.tolist(), len(silent)]):
+            if following - last > SILENT_INTERVALS * usual:
+                silent[last + round(usual) : following] = True
+        return silent
 
     def settled(self, fault: FaultWindow) -> int:
         """Return the first revolution in which a fault that is over may matter no more."""
