@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from textwrap import shorten
 from typing import Any
 
@@ -28,6 +29,11 @@ class Decoder:
 
     def __init__(self) -> None:
         self._store = get_typestore(Stores.EMPTY)
+
+    @property
+    def definitions(self) -> Mapping[str, Any]:
+        """Fields of the types that were added, as rosbags' type stores have them."""
+        return self._store.fielddefs
 
     def add(self, name: str, definition: str, *, idl: bool = False) -> None:
         """Add a type by its definition, with those it is made of, as a schema holds it.

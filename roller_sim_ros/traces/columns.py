@@ -55,8 +55,8 @@ class Messages(NamedTuple):
     lengths: NDArray[np.int64]
     log_time_ns: NDArray[np.uint64]
 
-    def chosen(self, which: NDArray[np.bool_]) -> Messages:
-        """Return some of them."""
+    def chosen(self, which: NDArray[np.bool_] | NDArray[np.int64]) -> Messages:
+        """Return some of them, by a mask or by their numbers."""
         return self._replace(
             starts=self.starts[which],
             lengths=self.lengths[which],
@@ -73,6 +73,7 @@ def read_messages(
     path: Path,
     topics: Collection[str],
     progress: Callable[[float], None] = lambda _share: None,
+    between: Collection[tuple[int, int]] | None = None,
 ) -> Iterator[dict[str, Messages]]:
     """Yield the messages of some topics, chunk by chunk in the order of the file.
 
@@ -86,6 +87,8 @@ def read_messages(
         Absolute names.
     progress : callable
         Told the share of the bytes that is read.
+    between : collection of (int, int), optional
+        Log times, ns since the epoch; only chunks with some between two of a pair are read.
 
     Raises
     ------
@@ -102,7 +105,9 @@ def read_messages(
             wanted = {
                 number: index
                 for number, index in indexes.items()
-                if number in table.channels and table.channels[number].topic in topics
+                if number in table.channels
+                and table.channels[number].topic in topics
+                and (between is None or _touches(index["time"], between))
             }
             if wanted:
                 try:
@@ -144,6 +149,13 @@ def _chunks(path: Path, table: ChannelTable) -> Iterator[tuple[int, bytes, Index
                 table.take(Channel.read(ReadDataStream(BytesIO(frame.content))))
     if chunk and indexes:
         yield frames.position, chunk, indexes
+
+
+def _touches(times_ns: NDArray[np.uint64], between: Collection[tuple[int, int]]) -> bool:
+    if not len(times_ns):
+        return False
+    first, last = int(times_ns.min()), int(times_ns.max())
+    return any(first <= end and last >= start for start, end in between)
 
 
 def _messages(data: NDArray[np.uint8], index: NDArray[Any]) -> Messages:

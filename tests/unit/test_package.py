@@ -74,6 +74,7 @@ LAYERS = (
     "score",
     "node",
     "bench",
+    "testing",
     "commands",
 )
 
