@@ -92,6 +92,10 @@ def _check_harmonics(window: HarmonicsWindow) -> None:
     waves = 2 * len(window.orders)
     _array(window, window._waves, (N, waves))
     _array(window, window._products, (waves,))
+    length = window.window_revolutions
+    _array(window, window._turns, (2, length, waves // 2))
+    _array(window, window._sums, (2, waves // 2, 2 * length))
+    _require(window, type(window._next) is int and 0 <= window._next < length)
 
 
 def _check_period(window: PeriodWindow) -> None:

@@ -130,13 +130,9 @@ class HarmonicsWindow:
             Phase of the eccentric at the first sample.
         """
         kernels.project(self._waves, np.ascontiguousarray(revolution), self._products)
-        real, imaginary = self._products.reshape(2, -1)
-        turn_real, turn_imaginary = self._turns_at(index, phase_rad)
+        turns, row = self._turns_at(index, phase_rad)
         slot = self._next
-        # (real − i imaginary) × (turn_real − i turn_imaginary)
-        self._sums[0, :, slot] = real * turn_real - imaginary * turn_imaginary
-        self._sums[1, :, slot] = -(real * turn_imaginary + imaginary * turn_real)
-        self._sums[:, :, slot + self.window_revolutions] = self._sums[:, :, slot]
+        kernels.keep(self._products, turns, row, self._sums, slot)
         self._next = (slot + 1) % self.window_revolutions
         self._held = min(self._held + 1, self.window_revolutions)
 
@@ -145,23 +141,20 @@ class HarmonicsWindow:
         if not self.full:
             unknown = np.full(len(self.orders), complex(math.nan, math.nan))
             return Harmonics(self.orders, unknown)
-        window = self._sums[:, :, self._next : self._next + self.window_revolutions]
-        real, imaginary = np.add.reduce(window, axis=2) * self._scale
         amplitudes = np.empty(len(self.orders), dtype=np.complex128)
-        amplitudes.real = real
-        amplitudes.imag = imaginary
+        kernels.window_sums(self._sums, self._next, self._scale, amplitudes)
         return Harmonics(self.orders, amplitudes)
 
-    def _turns_at(
-        self, index: int, phase_rad: float
-    ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-        """Return cos and sin of q (2π index + phase), exactly ±1 and 0 where the angle is one."""
-        turn = self._turns[:, index % self.window_revolutions]
+    def _turns_at(self, index: int, phase_rad: float) -> tuple[NDArray[np.float64], int]:
+        """Return the row of cos and sin of q (2π index + phase), exactly ±1 and 0 where the angle is one."""
+        row = index % self.window_revolutions
         if phase_rad == 0.0:
-            return turn[0], turn[1]
+            return self._turns, row
+        real, imaginary = self._turns[:, row]
         angle = np.array(self.orders) * phase_rad
         cosine, sine = np.cos(angle), np.sin(angle)
-        return turn[0] * cosine - turn[1] * sine, turn[1] * cosine + turn[0] * sine
+        turned = [real * cosine - imaginary * sine, imaginary * cosine + real * sine]
+        return np.array(turned)[:, np.newaxis], 0
 
 
 def order_amplitudes(

@@ -8,7 +8,7 @@ from roller_sim_ros.meters.kernels.branch import mean_modulus
 from roller_sim_ros.meters.kernels.fall import CANNOT_TELL, LIFTS, lifting
 from roller_sim_ros.meters.kernels.fundamental import fundamentals, soil_forces
 from roller_sim_ros.meters.kernels.line_contact import modulus
-from roller_sim_ros.meters.kernels.orders import project
+from roller_sim_ros.meters.kernels.orders import keep, project, window_sums
 from roller_sim_ros.meters.kernels.repetition import first_period, note_changes
 
 __all__ = [
@@ -16,6 +16,7 @@ __all__ = [
     "LIFTS",
     "first_period",
     "fundamentals",
+    "keep",
     "lifting",
     "mean_modulus",
     "modulus",
@@ -23,6 +24,7 @@ __all__ = [
     "project",
     "soil_forces",
     "warm_up",
+    "window_sums",
 ]
 
 
@@ -31,6 +33,8 @@ def warm_up() -> None:
     """Compile the loops, so that the first full window of a run is not late."""
     one, few, index = np.zeros(1), np.zeros((1, 4)), np.zeros(1, dtype=np.int64)
     project(np.zeros((4, 2)), np.zeros(4), np.zeros(2))
+    keep(np.zeros(2), np.zeros((2, 1, 1)), 0, np.zeros((2, 1, 4)), 0)
+    window_sums(np.zeros((2, 1, 4)), 0, 1.0, np.zeros(1, dtype=np.complex128))
     note_changes(few, few, np.zeros((2, 1)), 0, index, np.zeros(4))
     first_period(few, few, np.zeros((2, 1)), 0, index, 0.01)
     lifting(np.ones((2, 8)), (1, 0.7, 3, 0.1), (1, 0.7, 3, 0.1), -9.0, 0.1, np.zeros((2, 8)))
