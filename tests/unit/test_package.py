@@ -72,6 +72,7 @@ LAYERS = (
     "validation",
     "figures",
     "score",
+    "report",
     "node",
     "bench",
     "testing",
