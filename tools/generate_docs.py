@@ -107,7 +107,7 @@ def readme(text: str) -> str:
         "topics": _table(("topic", "type", "rate", "QoS", "what it says"), topics),
         "parameters": _table(("name", "default", "unit", "live", "what it is"), parameters),
     }
-    for example in ("meter_client", "controller_client"):
+    for example in ("meter_client", "controller_client", "test_my_meter"):
         code = (ROOT / "examples" / f"{example}.py").read_text(encoding="utf-8")
         blocks[example] = ["```python", code.rstrip(), "```"]
     for name, lines in blocks.items():
