@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import math
 import threading
 import time
@@ -277,3 +278,39 @@ def test_what_another_thread_asks_waits_for_the_block_under_way(
         roller.refuse(Refusal.TIMEOUT, "no command")
     assert done.is_set()
     thread.join()
+
+
+def test_what_comes_in_is_told_before_the_block_that_it_comes_before() -> None:
+    roller = emulator(exciter__frequency_hz=31.0)
+    (begin,) = of(roller.advance(16), "inputs")
+    arguments = json.loads(begin.arguments)
+    assert (begin.kind, begin.sample, stamp_ns(begin)) == ("begin", 0, START_NS)
+    assert arguments["parameters"] == roller.session.configuration.flat()
+    assert arguments["start_ns"] == START_NS
+    roller.advance(16)
+    roller.change({"exciter.frequency_hz": 29})
+    roller.command_travel(1)
+    for refused in (-1.0, math.nan):
+        with pytest.raises(CommandRefused):
+            roller.command(vibrate=True, frequency_hz=refused, amplitude_m=1e-3)
+        with pytest.raises(CommandRefused):
+            roller.command_travel(refused * 99.0)
+    with pytest.raises(ParameterError):
+        roller.change({"machine.drum_mass_kg": 1.0})
+    roller.release()
+    told = of(roller.advance(16), "inputs")
+    assert [(item.kind, item.sample) for item in told] == [
+        *(("change", 32), ("travel", 32), ("refuse", 32), ("refuse", 32), ("release", 32))
+    ]
+    assert told[0].arguments == '{"values": {"exciter.frequency_hz": 29.0}}'
+    assert told[1].arguments == '{"speed_m_s": 1.0}'
+    assert of(roller.advance(16), "inputs") == []
+
+
+def test_what_a_frozen_link_loses_never_came_in() -> None:
+    roller = emulator()
+    roller.inject("frozen_command_link")
+    roller.advance(128)
+    roller.command(vibrate=True, frequency_hz=math.nan, amplitude_m=1e-3)
+    roller.command_travel(math.inf)
+    assert of(roller.advance(128), "inputs") == []
