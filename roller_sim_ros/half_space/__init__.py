@@ -6,7 +6,7 @@ Where things are:
 - ``point_load``: what a point load's step does to the surface (Pekeris), Rayleigh speed
 - ``rectangle``: how much of the strip's load lies at each distance from its centre
 - ``transient``: the two together, in closed form: step response and ramp
-- ``step_response``: the transient as a table for the kernels; FIR taps (half space ``exact``)
+- ``step_response``: the transient as a table, and its FIR taps, for comparison with other implementations
 - ``compliance``: exact compliance H(i omega), the transform of the transient
 - ``point_load_harmonic``: what a harmonic point load does
 - ``two_pole``: the paper's second-order half space

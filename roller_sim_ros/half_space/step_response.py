@@ -1,4 +1,7 @@
-"""The exact transient as a table for the kernels, and the FIR taps of the sampled half space.
+"""The exact transient as a table, and from it the FIR taps of the sampled half space.
+
+For comparison with other implementations, which have a half space by its taps: nothing that runs uses them, since the
+ground `exact` carries waves, not samples of an old sample period (`roller_sim_ros.drum_soil.exact_ground`).
 
 One table per (alpha, nu), on a uniform grid of the dimensionless time tau = t v_s/sqrt(BL). The ramp
 response R is interpolated by cubics (its derivative at the nodes is the step response s), s by their
@@ -16,7 +19,6 @@ from roller_sim_ros.half_space.checks import require_poisson_ratio, require_posi
 from roller_sim_ros.half_space.point_load import FloatArray
 from roller_sim_ros.half_space.transient import memory as transient_memory
 from roller_sim_ros.half_space.transient import step_and_ramp
-from roller_sim_ros.jit import inlined
 
 TABLE_INTERVALS = 8192
 
@@ -89,7 +91,6 @@ def _tabulate(aspect_ratio: float, poisson_ratio: float) -> StepResponse:
     return StepResponse(aspect_ratio, poisson_ratio, spacing, span, offset, step, ramp)
 
 
-@inlined
 def ramp_at(
     x: float,
     table_ramp: FloatArray,
@@ -112,7 +113,6 @@ def ramp_at(
     return float(table_ramp[i] + y * (start + y * (rise - start - curve + y * curve)))
 
 
-@inlined
 def step_at(
     x: float,
     table_ramp: FloatArray,
