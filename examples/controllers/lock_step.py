@@ -46,7 +46,7 @@ ROOT = Path(__file__).resolve().parents[2]
 
 PATIENCE_S = 60.0
 
-JOIN_S = 2.0
+JOIN_S = 0.5
 """After which the roller takes another step although nobody answered yet: the controller has not found it at first."""
 
 RELAY = "controller"
@@ -148,14 +148,15 @@ class LockStep:
         for publisher in (self._speeds, self._exciter):
             self._until(publisher.get_subscription_count, "a roller that listens")
         self._until(self._answers.get_publisher_count, "a controller")
-        done, told = 0, []
+        done, next_sample = 0, 0
+        told: list[int] = []
         while done < most_revolutions and not self._arrived():
             if self._commands:
-                told.append(done * N)
-            step = min(revolutions_per_step, most_revolutions - done)
-            self._advance(step)
-            done += step
-            self._until(partial(self._told_until, done * N), "site/state")
+                told.append(next_sample)
+            revolutions = min(revolutions_per_step, most_revolutions - done)
+            next_sample = self._advance(revolutions)
+            done += revolutions
+            self._until(partial(self._told_until, next_sample), "site/state")
             self._until_answered()
         self._within(lambda: not told or told[-1] in self._applied, JOIN_S)
         truth = [self._truth[index] for index in sorted(self._truth)]
@@ -192,12 +193,14 @@ class LockStep:
     def _told_until(self, sample: int) -> bool:
         return self._site is not None and self._site.last_sample + 1 >= sample
 
-    def _advance(self, revolutions: int) -> None:
+    def _advance(self, revolutions: int) -> int:
+        """Step, and return the index of the sample that comes next."""
         future = self._client.call_async(Advance.Request(revolutions=revolutions))
         self._until(future.done, "the roller's answer to a step")
-        result = future.result().result
-        if result.result != Result.RESULT_OK:
-            raise RollerSimError(f"the roller does not step: {result.error_message}")
+        response = future.result()
+        if response.result.result != Result.RESULT_OK:
+            raise RollerSimError(f"the roller does not step: {response.result.error_message}")
+        return int(response.next_sample)
 
     def _until_answered(self) -> None:
         """Wait for the answer to the last ``meter``: all that the step published is here, or in the queue."""

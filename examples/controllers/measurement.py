@@ -5,14 +5,13 @@ Nothing here needs ROS: a message is any object with the fields of its type, be 
 
 from __future__ import annotations
 
+import math
 from collections import deque
 from dataclasses import dataclass
 from typing import Any, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
-
-from roller_sim_ros.meters.revolutions import Loss, RevolutionCollector, Timing
 
 N = 128
 """Samples in a revolution of the eccentric."""
@@ -96,62 +95,65 @@ class Collector:
     """
 
     def __init__(self) -> None:
-        self._collector = RevolutionCollector(1, REVOLUTIONS * N)
-        self._revolutions: deque[NDArray[np.float64]] = deque(maxlen=REVOLUTIONS)
-        self._phase_rad = np.nan
+        self._revolutions: deque[tuple[int, NDArray[np.float64]]] = deque(maxlen=4 * REVOLUTIONS)
+        self._begun: list[NDArray[np.float64]] | None = None
+        self._phase_rad = math.nan
         self._next_sample = 0
-        self._begins_ns = 0
-        self._states: deque[Any] = deque(maxlen=8)
-        self._meter: Any = None
+        self._states: deque[Any] = deque(maxlen=4 * REVOLUTIONS)
+        self._meters: deque[Any] = deque(maxlen=4 * REVOLUTIONS)
 
-    def acceleration(self, block: Any) -> Measurement | None:
-        """Take a block of ``drum/acceleration``."""
-        timing = Timing(block.sample_period, block.excitation_frequency, block.phase_increment)
-        samples = np.asarray(block.vertical, dtype=np.float64)
-        for item in self._collector.feed(block.sequence, [samples], timing, block.eccentric_phase):
-            if isinstance(item, Loss) or not item.synchronous:
-                self._revolutions.clear()
-                self._phase_rad = np.nan
-            else:
-                self._revolutions.append(item.samples[0].copy())
-                self._phase_rad = item.phase_rad
-        self._next_sample = block.sequence + len(samples)
-        if block.sequence % N == 0:
-            self._begins_ns = nanoseconds(block.header.stamp)
+    def acceleration(self, block: Any) -> list[Measurement]:
+        """Take a block of ``drum/acceleration``, which reaches over no multiple of 128; return what it completes."""
+        follows = block.sequence == self._next_sample
+        if not follows or abs(block.phase_increment * N / (2.0 * math.pi) - 1.0) > 1e-9:
+            self._revolutions.clear()
+            self._begun = None
+        elif block.sequence % N == 0:
+            self._begun = []
+            self._phase_rad = block.eccentric_phase
+        self._next_sample = block.sequence + len(block.vertical)
+        if self._begun is not None:
+            self._begun.append(np.asarray(block.vertical, dtype=np.float64))
+            if self._next_sample % N == 0:
+                self._revolutions.append((block.sequence // N, np.concatenate(self._begun)))
         return self._complete()
 
-    def meter(self, meter: Any) -> Measurement | None:
-        """Take a value of ``meter``."""
-        self._meter = meter
+    def meter(self, meter: Any) -> list[Measurement]:
+        """Take a value of ``meter`` and return what it completes."""
+        self._meters.append(meter)
         return self._complete()
 
-    def exciter_state(self, state: Any) -> Measurement | None:
-        """Take an ``exciter/state``."""
+    def exciter_state(self, state: Any) -> list[Measurement]:
+        """Take an ``exciter/state`` and return what it completes."""
         self._states.append(state)
         return self._complete()
 
-    def _complete(self) -> Measurement | None:
-        meter = self._meter
-        if meter is None or not self._states or self._next_sample <= meter.last_sample:
-            return None
-        self._meter = None
-        half_ns = round(0.5e9 / max(meter.excitation_frequency, 10.0))
-        earlier = [
-            it for it in self._states if nanoseconds(it.header.stamp) < self._begins_ns - half_ns
-        ]
+    def _complete(self) -> list[Measurement]:
+        complete = []
+        while self._meters and self._states and self._meters[0].last_sample < self._next_sample:
+            complete.append(self._measurement(self._meters.popleft()))
+        return complete
+
+    def _measurement(self, meter: Any) -> Measurement:
+        revolution = meter.last_sample // N
+        stamp_ns = nanoseconds(meter.header.stamp)
+        # Where the samples are no revolution there are at least 10 times 128 of them in a second.
+        earlier_ns = stamp_ns - round(1.5e9 / max(meter.excitation_frequency, 10.0))
+        earlier = [it for it in self._states if nanoseconds(it.header.stamp) < earlier_ns]
         state = earlier[-1] if earlier else self._states[0]
+        rows = [row for index, row in self._revolutions if index <= revolution][-REVOLUTIONS:]
         return Measurement(
-            stamp_ns=nanoseconds(meter.header.stamp),
-            revolution=meter.last_sample // N,
+            stamp_ns=stamp_ns,
+            revolution=revolution,
             cmv=meter.cmv,
             rmv=meter.rmv,
-            lag_rad=(np.pi - meter.fundamental_phase) % (2.0 * np.pi),
+            lag_rad=(math.pi - meter.fundamental_phase) % (2.0 * math.pi),
             frequency_hz=meter.excitation_frequency,
             amplitude_m=state.amplitude,
             commanded_frequency_hz=state.commanded_frequency,
             commanded_amplitude_m=state.commanded_amplitude,
-            vertical=np.array(self._revolutions).reshape(-1, N),
-            phase_rad=self._phase_rad,
+            vertical=np.array(rows).reshape(-1, N),
+            phase_rad=self._phase_rad if rows else math.nan,
         )
 
 

@@ -59,26 +59,29 @@ class Controller(Node):
             self._commands = self.create_publisher(ExciterCommand, "exciter/command", 10)
             self.destroy_timer(self._looking)
 
-    def _answering(self, take: Callable[[Any], Measurement | None]) -> Callable[[Any], None]:
+    def _answering(self, take: Callable[[Any], list[Measurement]]) -> Callable[[Any], None]:
         def on_message(message: Any) -> None:
-            measurement = take(message)
-            if measurement is None or self._commands is None:
-                return
-            command = self._law.update(measurement)
-            # The exciter's command is the answer, so it comes last.
-            if command.speed_m_s is not None:
-                speed = Twist()
-                speed.linear.x = command.speed_m_s
-                self._speeds.publish(speed)
-            answer = ExciterCommand(
-                vibrate=True, frequency=command.frequency_hz, amplitude=command.amplitude_m
-            )
-            # Of the measurement: who waits for the answer knows it by that.
-            second, nanosecond = divmod(measurement.stamp_ns, 10**9)
-            answer.header.stamp = Time(sec=second, nanosec=nanosecond)
-            self._commands.publish(answer)
+            for measurement in take(message):
+                self._answer(measurement)
 
         return on_message
+
+    def _answer(self, measurement: Measurement) -> None:
+        if self._commands is None:
+            return
+        command = self._law.update(measurement)
+        # The exciter's command is the answer, so it comes last.
+        if command.speed_m_s is not None:
+            speed = Twist()
+            speed.linear.x = command.speed_m_s
+            self._speeds.publish(speed)
+        answer = ExciterCommand(
+            vibrate=True, frequency=command.frequency_hz, amplitude=command.amplitude_m
+        )
+        # Of the measurement: who waits for the answer knows it by that.
+        second, nanosecond = divmod(measurement.stamp_ns, 10**9)
+        answer.header.stamp = Time(sec=second, nanosec=nanosecond)
+        self._commands.publish(answer)
 
 
 def spin(name: str, law: Callable[..., Law]) -> None:

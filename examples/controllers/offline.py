@@ -38,7 +38,7 @@ def drive(scenario: Scenario, law: Law, most_revolutions: int | None = None) -> 
     """
     emulator = Emulator(start_ns=0, **start_of(scenario)._asdict())
     journal, collector = Journal(emulator.session), Collector()
-    take: dict[str, Callable[[Any], Measurement | None]] = {
+    take: dict[str, Callable[[Any], list[Measurement]]] = {
         "drum/acceleration": collector.acceleration,
         "meter": collector.meter,
         "exciter/state": collector.exciter_state,
@@ -52,8 +52,7 @@ def drive(scenario: Scenario, law: Law, most_revolutions: int | None = None) -> 
         for message in messages:
             if message.topic not in take:
                 continue
-            measurement = take[message.topic](decode(message.data, message.type_name))
-            if measurement is not None:
+            for measurement in take[message.topic](decode(message.data, message.type_name)):
                 obey(emulator, law.update(measurement))
     return journal.map()
 
