@@ -58,6 +58,11 @@ class Process:
             ) from None
 
     @property
+    def pid(self) -> int:
+        """Its number."""
+        return self._process.pid
+
+    @property
     def code(self) -> int | None:
         """Exit code; None while it runs."""
         return self._process.poll()
