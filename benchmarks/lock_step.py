@@ -125,10 +125,10 @@ def measure(_options: Options) -> Table:
     return Table(
         title="Lock step",
         says=(
-            f"`roller-sim sim --lock-step` at {HZ:g} Hz, recording to MCAP, stepped revolution by revolution by a client "
-            "in another process, which takes samples and meter value of each before it asks for the next; the executor is "
-            "the client's. Beside it the same calls to a service that does nothing, and the same messages made without "
-            f"ROS. Per revolution, {REVOLUTIONS} of them. Aim: 30 × real time in blocks of 128."
+            f"`roller-sim sim --lock-step` at {HZ:g} Hz, recording to MCAP, stepped revolution by revolution by a "
+            "client in another process, which takes samples and meter value of each before it asks for the next; the "
+            "executor is the client's. Beside it the same calls to a service that does nothing, and the same messages "
+            f"made without ROS. Per revolution, {REVOLUTIONS} of them. Aim: 30 × real time in blocks of 128."
         ),
         columns=("", "× real time", "real time", "CPU node", "CPU client"),
         rows=rows,

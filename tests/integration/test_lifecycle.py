@@ -7,7 +7,15 @@ from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
 from rclpy.qos import DurabilityPolicy, QoSProfile
 
 from roller_sim_ros.msg import DrumAcceleration, DrumSoilState, ExciterState
-from tests.integration.harness import entry
+from tests.integration.harness import Client, entry
+
+
+def stands_still(client: Client, diagnostics: list[DiagnosticArray]) -> None:
+    """Wait until the roller has said twice that it is not active: what it published before is heard by then."""
+    diagnostics.clear()
+    client.spin_until(
+        lambda: sum(entry([item], "pacing").message == "not active" for item in diagnostics) == 2
+    )
 
 
 def test_life_from_unconfigured_to_its_end(start, client):
@@ -48,9 +56,9 @@ def test_life_from_unconfigured_to_its_end(start, client):
     assert "deactivate" in result.reason
 
     assert client.change_state("deactivate")
-    client.spin_for(0.3)
+    stands_still(client, diagnostics)
     count = len(blocks)
-    client.spin_for(0.5)
+    stands_still(client, diagnostics)
     assert len(blocks) == count
 
     # Active again it starts anew.
@@ -72,6 +80,7 @@ def test_structural_change_takes_effect_when_activated_again(start, client):
     sim = start()
     blocks = client.listen("drum/acceleration", DrumAcceleration)
     truth = client.listen("truth", DrumSoilState)
+    diagnostics = client.listen("/diagnostics", DiagnosticArray)
     machine = client.listen(
         "machine",
         DiagnosticStatus,
@@ -99,7 +108,7 @@ def test_structural_change_takes_effect_when_activated_again(start, client):
     assert not result.successful
     assert "128" in result.reason
 
-    client.spin_for(0.2)
+    stands_still(client, diagnostics)
     blocks.clear()
     truth.clear()
     machine.clear()

@@ -24,18 +24,14 @@ LASTING = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
 
 
 def drive(client: Client, speed: float) -> None:
-    """Command the travel, and wait until the roller must have heard it: it is asked something after."""
+    """Command the travel, once the roller is there to hear it."""
     publisher = client.node.create_publisher(Twist, "cmd_vel", 10)
     client.spin_until(publisher.get_subscription_count)
     publisher.publish(Twist(linear=Vector3(x=speed)))
-    heard(client)
-    client.node.destroy_publisher(publisher)
-
-
-def heard(client: Client) -> None:
-    # Commands and services are taken in the order in which they come, but not all come by the same way.
+    # As a controller, it stays until it is heard.
     client.spin_for(0.2)
     client.state()
+    client.node.destroy_publisher(publisher)
 
 
 def test_scenario_in_real_time_is_all_on_the_network(start, client, scenario, tmp_path: Path):
@@ -77,13 +73,15 @@ def test_live_commands_are_masters_until_they_are_released(stepper):
     assert (before.exciter_master, before.travel_master) == (SiteState.MASTER_SCENARIO,) * 2
     assert before.speed == 1.0
     drive(stepper, -0.5)
+    stepper.spin_until(lambda: after(1).travel_master == SiteState.MASTER_CMD_VEL)
     driven = after(28)
     assert driven.travel_master == SiteState.MASTER_CMD_VEL
     assert driven.exciter_master == SiteState.MASTER_SCENARIO
     assert driven.speed == -0.5
     assert driven.chainage < before.chainage
     stepper.command(frequency=28.0, amplitude=0.8e-3)
-    heard(stepper)
+    # The parameters tell what waits for the next revolution.
+    stepper.spin_until(lambda: stepper.get_parameter("exciter.amplitude_m") == 0.8e-3)
     assert after(2).exciter_master == SiteState.MASTER_COMMAND
     stepper.spin_until(lambda: states[-1].commanded_amplitude == 0.8e-3)
     assert stepper.ask(Trigger, "release").success
@@ -115,6 +113,7 @@ def test_watchdogs_count_simulated_time_and_a_frozen_link_keeps_them_quiet(stepp
         assert stepper.set_parameter(name, 0.5).successful
     drive(stepper, 0.5)
     stepper.advance(seconds=0.4)
+    stepper.spin_until(lambda: any(item.name == "travel.speed_m_s" for item in applied))
 
     # A frozen link goes on saying what was said last; what is said meanwhile is lost.
     injected = stepper.ask(
@@ -123,7 +122,7 @@ def test_watchdogs_count_simulated_time_and_a_frozen_link_keeps_them_quiet(stepp
     assert injected.success, injected.message
     stepper.advance(seconds=0.1)
     stepper.command(frequency=20.0, amplitude=1e-3)
-    heard(stepper)
+    stepper.spin_for(0.2)
     stepper.advance(seconds=0.9)
     stepper.spin_until(lambda: states)
     assert {state.refusal_code for state in states} == {ExciterState.NONE}
@@ -142,11 +141,6 @@ def test_watchdogs_count_simulated_time_and_a_frozen_link_keeps_them_quiet(stepp
 
 def test_faults_are_injected_and_cleared(stepper):
     faults = stepper.listen("faults", FaultStates, LASTING)
-
-    def active_after(revolutions: int) -> list[str]:
-        stepper.advance(revolutions=revolutions)
-        stepper.spin_for(0.1)
-        return [item.id for item in faults[-1].faults]
 
     stepper.advance(revolutions=1)
     injected = stepper.ask(
