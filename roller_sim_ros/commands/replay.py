@@ -54,20 +54,19 @@ def main(argv: list[str] | None = None) -> int:
     from roller_sim_ros.offline.replay import replay
 
     show = progress("replaying", always=False)
-    found = replay(arguments.trace, arguments.namespace, show)
-    print("\n".join(_lines(found, hashes=arguments.hashes)))
+    found = replay(arguments.trace, arguments.namespace, show, hashes=arguments.hashes)
+    print("\n".join(_lines(found)))
     return 0 if found.difference is None else 1
 
 
-def _lines(found: Replay, *, hashes: bool) -> list[str]:
+def _lines(found: Replay) -> list[str]:
     lines = ["identical" if found.difference is None else "not identical"]
     for number, run in enumerate(found.runs, 1):
         name = f"run {number}: " if len(found.runs) > 1 else ""
         lines.append(name + _summary(run))
         if run.difference is not None:
             lines.append(f"{name}first differs: {_told(run.difference)}")
-        if hashes:
-            lines += [f"  {digest}  {topic}" for topic, digest in run.hashes.items()]
+        lines += [f"  {digest}  {topic}" for topic, digest in run.hashes.items()]
     if found.damage_text:
         lines.append(found.damage_text)
     return lines

@@ -49,7 +49,7 @@ class ReplayedRun:
     difference : Difference or None
         The first one; nothing after it was looked at.
     hashes : dict
-        {topic: SHA-256} of what was recorded, see `StreamHashes`.
+        {topic: SHA-256} of what was recorded, see `StreamHashes`; empty where they were not asked for.
     """
 
     first_sample: int = 0
@@ -61,7 +61,13 @@ class ReplayedRun:
     hashes: dict[str, str] = field(default_factory=dict)
 
 
-def replay(path: Path, namespace: str = "", progress: Progress = lambda _: None) -> Replay:
+def replay(
+    path: Path,
+    namespace: str = "",
+    progress: Progress = lambda _: None,
+    *,
+    hashes: bool = False,
+) -> Replay:
     """Compute all runs of a trace again, up to the first difference.
 
     Parameters
@@ -72,6 +78,8 @@ def replay(path: Path, namespace: str = "", progress: Progress = lambda _: None)
         Of the roller, where the trace has several; the only one's when left out.
     progress : callable
         Told the share that is done.
+    hashes : bool
+        Hash what was recorded, too.
 
     Raises
     ------
@@ -80,7 +88,7 @@ def replay(path: Path, namespace: str = "", progress: Progress = lambda _: None)
     RollerSimError
         If it cannot be read, or a run of it not be begun by this version.
     """
-    found = Replay(TraceReader(path), namespace)
+    found = Replay(TraceReader(path), namespace, hashes=hashes)
     found.run(progress)
     return found
 
@@ -92,7 +100,7 @@ class Replay:
     ----------
     reader : TraceReader
         The trace.
-    namespace : str
+    namespace, hashes
         As in `replay`.
 
     Attributes
@@ -101,8 +109,9 @@ class Replay:
         In their order.
     """
 
-    def __init__(self, reader: TraceReader, namespace: str = "") -> None:
+    def __init__(self, reader: TraceReader, namespace: str = "", *, hashes: bool = False) -> None:
         self.runs: list[ReplayedRun] = []
+        self._hash = hashes
         self._reader = reader
         prefix = _prefix(reader, namespace)
         self._names = {
@@ -141,7 +150,7 @@ class Replay:
                         return
                     # Per-sample messages are there only while someone listens.
                     imu = self._messages_of(topics.IMU) > 0
-                    run = _Run(begun(item), self._alignments, imu)
+                    run = _Run(begun(item), self._alignments, imu=imu, hashes=self._hash)
                     self.runs.append(run.result)
                 elif run is not None:
                     run.inputs.append(item)
@@ -174,7 +183,9 @@ class Replay:
 class _Run:
     """One run: recorded messages come in, blocks are computed, both are compared."""
 
-    def __init__(self, emulator: Emulator, alignments: dict[str, Alignment], imu: bool) -> None:
+    def __init__(
+        self, emulator: Emulator, alignments: dict[str, Alignment], *, imu: bool, hashes: bool
+    ) -> None:
         self.inputs: deque[Input] = deque()
         self.result = ReplayedRun(first_sample=emulator.session.next_sample)
         self._emulator = emulator
@@ -183,14 +194,15 @@ class _Run:
         self._imu: deque[Replayed] | None = deque(maxlen=_POOL) if imu else None
         self._imu_compared = 0
         self._start_s = self._place.time_s
-        self._hashes = StreamHashes(emulator.start_ns)
+        self._hashes = StreamHashes(emulator.start_ns) if hashes else None
 
     def take(self, topic: topics.Topic, message: TraceMessage) -> bool:
         """Take the next recorded message and return whether something differs."""
         if topic is topics.EXCITER_STATE and _is_of_no_run(message):
             self._alignments[topic.name].count(message.sequence)
             return False
-        self._hashes.feed([message])
+        if self._hashes is not None:
+            self._hashes.feed([message])
         if topic is topics.IMU:
             return self._take_imu(message)
         if topic is topics.TRUTH and self._go_on(message):
@@ -218,7 +230,8 @@ class _Run:
         result.lost = sum(lost for _, lost in counts.values())
         result.samples = self._place.sample - result.first_sample
         result.duration_s = self._place.time_s - self._start_s
-        result.hashes = self._hashes.digests()
+        if self._hashes is not None:
+            result.hashes = self._hashes.digests()
         return result.difference is not None
 
     @property
