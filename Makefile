@@ -1,4 +1,4 @@
-# make setup | sim | test | check | bench | fuzz | docs | clean
+# make setup | sim | test | check | bench | fuzz | soak | docs | clean
 #
 # Everything goes into .venv and build; nothing needs sourcing.
 
@@ -18,7 +18,7 @@ ifdef ROS_DISTRO
 unexport LD_LIBRARY_PATH
 endif
 
-.PHONY: setup sim test check bench fuzz docs clean
+.PHONY: setup sim test check bench fuzz soak docs clean
 
 setup:
 	@tools/setup.sh
@@ -54,10 +54,15 @@ fuzz: setup
 	@$(VENV)/python -m pip install --disable-pip-version-check -q -r requirements/fuzz.txt
 	@exec $(VENV)/python -m fuzz --coverage-guided 300 $(ARGS)
 
+# An hour of real time and a day of simulated time: make soak ARGS=--write
+soak: setup
+	@exec $(VENV)/python -m soak $(ARGS)
+
 docs: setup
 	@$(VENV)/python -m tools.generate_docs
 	@$(VENV)/python -m tools.generate_schema
-	@exec $(VENV)/python -m tools.generate_layouts
+	@$(VENV)/python -m tools.generate_layouts
+	@exec $(VENV)/python -m tools.generate_picture
 
 clean:
 	rm -rf .venv build install log dist roller_sim_ros.egg-info .mypy_cache .pytest_cache .ruff_cache .hypothesis

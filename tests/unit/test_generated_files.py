@@ -11,7 +11,7 @@ import yaml
 from roller_sim_ros.parameters import PARAMETERS, Configuration
 from roller_sim_ros.parameters.file import read_parameters
 from roller_sim_ros.wire.topics import TOPICS
-from tools import generate_docs
+from tools import generate_docs, generate_picture
 from tools.generated import stale
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -19,6 +19,15 @@ ROOT = Path(__file__).resolve().parents[2]
 
 def test_generated_files_are_not_stale() -> None:
     assert stale(generate_docs.ROOT, generate_docs.contents()) == [], "run make docs"
+
+
+def test_picture_of_the_data_flow_is_that_of_the_imports() -> None:
+    assert stale(ROOT, generate_picture.contents()) == [], "run make docs"
+    graph = generate_picture.reduced(generate_picture.imports())
+    assert "drum_soil" in graph["session"]
+    # What follows from other arrows is not drawn.
+    assert "half_space" in generate_picture.imports()["drum_soil"]
+    assert "half_space" not in graph["session"]
 
 
 def test_a_changed_file_is_found_and_written(
