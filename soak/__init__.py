@@ -1,0 +1,1 @@
+"""Long runs: whether a sample is lost, memory grows, or time drifts."""

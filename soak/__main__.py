@@ -1,0 +1,64 @@
+"""`python -m soak [--real-minutes M] [--simulated-hours H] [--write]`."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from pathlib import Path
+
+from benchmarks.machine import facts, load
+from soak.run import Result, lock_step, real_time
+from tools.sections import write_section
+
+PAGE = Path(__file__).resolve().parents[1] / "docs" / "robustness.md"
+HEAD = [
+    "| what | how long | samples | lost | drift | memory of the roller's processes | slope |",
+    "|---|---|---|---|---|---|---|",
+]
+
+
+def main() -> int:
+    """Soak, tell, and return 1 if a sample was lost."""
+    parser = argparse.ArgumentParser(
+        prog="python -m soak",
+        description="Let the roller work on a scenario at 40 Hz and count every sample.",
+    )
+    parser.add_argument(
+        "--real-minutes", type=float, default=60.0, help="in real time (default %(default)g)"
+    )
+    parser.add_argument(
+        "--simulated-hours", type=float, default=24.0, help="in lock step (default %(default)g)"
+    )
+    parser.add_argument("--write", action="store_true", help="put the results into docs")
+    arguments = parser.parse_args()
+    before = load()
+    results = []
+    if arguments.real_minutes > 0.0:
+        results.append(real_time(60.0 * arguments.real_minutes))
+    if arguments.simulated_hours > 0.0:
+        results.append(lock_step(arguments.simulated_hours))
+    lines = [*HEAD, *(_row(result) for result in results), ""]
+    lines += [f"The roller's last words, {it.what}: {it.last_words}\n" for it in results]
+    machine = "; ".join(f"{name} {value}" for name, value in facts().items())
+    lines.append(f"*{machine}; load before {before}.*")
+    text = "\n".join(lines)
+    print(text)
+    if arguments.write:
+        write_section(PAGE, "soak", text)
+    return int(any(result.lost for result in results))
+
+
+def _row(it: Result) -> str:
+    long = f"{it.simulated_s / 3600.0:.2f} h in {it.wall_s / 60.0:.1f} min"
+    drift = f"{it.drift_samples:+.3f} samples"
+    if it.clock_drift_ms is not None:
+        drift += f", {it.clock_drift_ms:+.2f} ms against the steady clock"
+    memory = ", ".join(f"{mb:.1f}" for mb in it.memory.quarters())
+    return (
+        f"| {it.what} | {long} | {it.truth.samples} true, {it.acceleration.samples} of the sensor | {it.lost} "
+        f"| {drift} | {memory} MB at each quarter | {it.memory.slope_mb_per_h:+.2f} MB/h |"
+    )
+
+
+if __name__ == "__main__":
+    sys.exit(main())
