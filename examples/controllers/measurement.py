@@ -104,11 +104,11 @@ class Collector:
 
     def acceleration(self, block: Any) -> list[Measurement]:
         """Take a block of ``drum/acceleration``, which reaches over no multiple of 128; return what it completes."""
-        follows = block.sequence == self._next_sample
-        if not follows or abs(block.phase_increment * N / (2.0 * math.pi) - 1.0) > 1e-9:
+        synchronous = abs(block.phase_increment * N / (2.0 * math.pi) - 1.0) < 1e-9
+        if block.sequence != self._next_sample or not synchronous:
             self._revolutions.clear()
             self._begun = None
-        elif block.sequence % N == 0:
+        if block.sequence % N == 0 and synchronous:
             self._begun = []
             self._phase_rad = block.eccentric_phase
         self._next_sample = block.sequence + len(block.vertical)
