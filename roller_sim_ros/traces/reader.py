@@ -71,10 +71,12 @@ class TraceReader:
 
     Examples
     --------
-    >>> reader = TraceReader(Path("trace.mcap"))  # doctest: +SKIP
-    >>> for message in reader.messages({"/cmv"}):  # doctest: +SKIP
-    ...     print(message.log_time_ns, decode(message.data, message.type_name).data)
-    >>> print(reader.damage_text())  # doctest: +SKIP
+    ::
+
+        reader = TraceReader(Path("trace.mcap"))
+        for message in reader.messages({"/cmv"}):
+            print(message.log_time_ns, decode(message.data, message.type_name).data)
+        print(reader.damage_text())
     """
 
     def __init__(self, path: Path, progress: Progress | None = None) -> None:

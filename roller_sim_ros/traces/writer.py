@@ -42,9 +42,11 @@ class TraceWriter:
 
     Examples
     --------
-    >>> with TraceWriter(path, run_metadata(configuration, start_ns)) as trace:  # doctest: +SKIP
-    ...     names = register_all(trace, configuration.pacing)
-    ...     trace.put(names[message.topic], message.data, message.stamp_ns, message.stamp_ns)
+    ::
+
+        with TraceWriter(path, run_metadata(configuration, start_ns)) as trace:
+            names = register_all(trace, configuration.pacing)
+            trace.put(names[message.topic], message.data, message.stamp_ns, message.stamp_ns)
     """
 
     def __init__(
