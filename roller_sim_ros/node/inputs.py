@@ -126,17 +126,21 @@ class Inputs:
         emulator = self.emulator
         if emulator is None:
             return
+        watched = emulator.session.configuration
+        timeout_s = watched.travel.command_timeout_s
+        if watched.exciter.command_timeout_s <= 0.0 and timeout_s <= 0.0:
+            return
         if self._lost():
             # The machine goes on with the last command, which the frozen link seems to repeat.
             self.exciter.alive()
             self.travel.alive()
             return
-        configuration = upcoming(emulator)
-        overdue = self.exciter.overdue(configuration.exciter)
+        exciter = upcoming(emulator).exciter
+        overdue = self.exciter.overdue(exciter)
         if overdue:
-            _obey(emulator, stopped(configuration.exciter))
+            _obey(emulator, stopped(exciter))
             self._refuse_exciter(Refusal.TIMEOUT, overdue, overdue)
-        timeout_s, silent_s = configuration.travel.command_timeout_s, self.travel.silent_s()
+        silent_s = self.travel.silent_s()
         if self._driven_m_s and 0.0 < timeout_s < silent_s:
             emulator.command_travel(0.0)
             self._driven_m_s = 0.0

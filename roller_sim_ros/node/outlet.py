@@ -7,7 +7,6 @@ from collections.abc import Callable, Iterable
 from contextlib import suppress
 from typing import Any
 
-from rclpy.event_handler import PublisherEventCallbacks
 from rclpy.node import Node
 from rclpy.publisher import Publisher
 
@@ -18,6 +17,11 @@ from roller_sim_ros.parameters import Pacing
 from roller_sim_ros.traces.recorder import Recorder
 from roller_sim_ros.wire import topics
 from roller_sim_ros.wire.messages import Message
+
+try:
+    from rclpy.event_handler import PublisherEventCallbacks
+except ImportError:  # Humble
+    from rclpy.qos_event import PublisherEventCallbacks
 
 
 class Outlet:

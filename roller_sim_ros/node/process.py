@@ -71,6 +71,8 @@ def run_node(
         _initialise(ros_arguments)
         _check_namespace(namespace)
         node = RollerNode(namespace=namespace, overrides=overrides, stopping=lambda: signals.stop)
+        if exit_at_end and not node.roller.configuration.scenario.path:
+            raise RollerSimError("--exit-at-end: there is no end without a scenario (--scenario)")
         node.on_report = on_report
         node.roller.stop_at_end = exit_at_end
         if node.autostart and not _autostart(node):
