@@ -11,9 +11,15 @@ from roller_sim_ros.emulation.inputs import Input, InputError, InputKind
 from roller_sim_ros.emulation.snapshot import restore
 from roller_sim_ros.faults import Span
 from roller_sim_ros.parameters import Configuration
+from roller_sim_ros.parameters.quantity import shown
 from roller_sim_ros.scenario import parse_scenario, start_of
 from roller_sim_ros.sensors import Choice
 from roller_sim_ros.session import Refusal
+
+LATEST_NS = 2**31 * 1_000_000_000
+"""Stamps of ROS 2 end there."""
+_ODD = (KeyError, TypeError, ValueError, AttributeError, OverflowError)
+"""What arguments that are none lead to."""
 
 
 def begun(item: Input) -> Emulator:
@@ -28,7 +34,7 @@ def begun(item: Input) -> Emulator:
         return restore(item.state, told=True)
     try:
         return _begun(item.arguments)
-    except (KeyError, TypeError, ValueError) as error:
+    except _ODD as error:
         raise _not_understood(item, error) from None
 
 
@@ -42,7 +48,7 @@ def apply(item: Input, emulator: Emulator) -> None:
     """
     try:
         _APPLY[item.kind](emulator, item.arguments)
-    except (KeyError, TypeError, ValueError) as error:
+    except _ODD as error:
         raise _not_understood(item, error) from None
 
 
@@ -53,6 +59,9 @@ def _begun(arguments: Mapping[str, Any]) -> Emulator:
             f"the run was made with {' and '.join(untold)} of no scenario file: only the program that made it can "
             "run it again"
         )
+    start_ns = arguments["start_ns"]
+    if not isinstance(start_ns, int) or not 0 <= start_ns < LATEST_NS:
+        raise ValueError(f"start_ns is {shown(start_ns)}")
     configuration = Configuration().changed(arguments["parameters"])
     sensors = tuple(Choice(name, parameters) for name, parameters in arguments["sensors"])
     start: dict[str, Any] = {}
@@ -60,7 +69,7 @@ def _begun(arguments: Mapping[str, Any]) -> Emulator:
         scenario = parse_scenario(arguments["scenario"], Path("the trace's scenario"))
         start = start_of(scenario)._asdict()
     start |= {"run_up": arguments["run_up"], "sensors": sensors, "seed": arguments["seed"]}
-    return Emulator(**{**start, "configuration": configuration}, start_ns=arguments["start_ns"])
+    return Emulator(**{**start, "configuration": configuration}, start_ns=start_ns)
 
 
 def _command(emulator: Emulator, arguments: Mapping[str, Any]) -> None:
@@ -89,5 +98,5 @@ _APPLY: dict[InputKind, Callable[[Emulator, Mapping[str, Any]], None]] = {
 def _not_understood(item: Input, error: Exception) -> InputError:
     return InputError(
         f"the input {item.kind.value} at sample {item.sample} is not understood by this version: "
-        f"{type(error).__name__}: {error}"
+        f"{type(error).__name__}, {shown(str(error))}"
     )

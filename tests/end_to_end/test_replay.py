@@ -365,6 +365,18 @@ def with_input(**fields: str) -> Edit:
     return edit
 
 
+def with_begin(**values: Any) -> Edit:
+    def edit(_: int, message: TraceMessage) -> TraceMessage:
+        if message.topic != "/inputs":
+            return message
+        content = decode(message.data, message.type_name)
+        if content.kind == "begin":
+            content.arguments = json.dumps({**json.loads(content.arguments), **values})
+        return message._replace(data=encode(content, message.type_name))
+
+    return edit
+
+
 @pytest.mark.parametrize(
     ("edit", "message"),
     [
@@ -373,7 +385,15 @@ def with_input(**fields: str) -> Edit:
         (with_input(kind="dance"), "the input 'dance' at sample 0 is not understood"),
         (with_input(arguments="{"), "the input 'begin' at sample 0 is not understood"),
         (with_input(arguments="[]"), "has no arguments"),
-        (with_input(arguments="{}"), "is not understood by this version: KeyError"),
+        (with_input(arguments="{}"), "is not understood by this version: KeyError, "),
+        (with_begin(start_ns=2**63), "start_ns is 9223372036854775808"),
+        (with_begin(start_ns="now"), "start_ns is 'now'"),
+        (with_begin(parameters=[]), "AttributeError"),
+        (with_begin(parameters={"soil.x": 1}), "soil.x = 1: there is no such parameter"),
+        (with_begin(sensors=[["camera", {}]]), "there is no such sensor"),
+        (with_begin(sensors=3), "TypeError"),
+        (with_begin(seed=-1), "ValueError"),
+        (with_begin(scenario="lane: {}"), "the trace's scenario:1: lane: length_m is missing"),
         (with_input(kind="restore"), "is no saved state"),
     ],
 )
