@@ -113,6 +113,11 @@ def _percent(value: float) -> str:
     return f"{percent:.2g}" if percent > 1e-3 else "< 0.001"
 
 
+def _signed(value: float) -> str:
+    text = f"{100.0 * value:+.1f}"
+    return "0.0" if float(text) == 0.0 else text.replace("-", "−")
+
+
 def _round_trip_rows(count: int) -> list[tuple[str, ...]]:
     rows = []
     for model, points in (("exact", count), ("two-pole", count), ("rational", count)):
@@ -226,7 +231,7 @@ def _bias_row(
     cells = []
     for column in errors.T:
         low, middle, high = np.percentile(column, [25, 50, 75])
-        cells.append(f"{100 * middle:+.1f} ({100 * low:+.1f} … {100 * high:+.1f})")
+        cells.append(f"{_signed(middle)} ({_signed(low)} … {_signed(high)})")
     stands = np.mean([found.status.stands for _, found in told])
     misfit = np.median([found.misfit_share for _, found in told])
     row = (name, *cells, f"{100 * misfit:.1f}", f"{100 * stands:.0f}")
