@@ -29,6 +29,7 @@ from roller_sim_ros.analysis.panels import (
 )
 from roller_sim_ros.meters import Mode
 from roller_sim_ros.parameters import GRAVITY_M_S2, SAMPLES_PER_REVOLUTION
+from roller_sim_ros.report.displacement import twice_integrated, without_sinking
 from roller_sim_ros.report.run_record import RunRecord
 from roller_sim_ros.report.windows import Window
 
@@ -134,15 +135,6 @@ def of_window(window: Window) -> str:
     return svg(draw, 9.0, 6.2)
 
 
-def without_sinking(height: NDArray[np.float64]) -> tuple[NDArray[np.float64], float]:
-    """Return the height of whole revolutions without its steady fall, and that fall a revolution, m."""
-    means = height.reshape(-1, SAMPLES_PER_REVOLUTION).mean(axis=1)
-    half = len(means) // 2
-    # From half to half, each of an even number of revolutions: a drum that double-jumps does not sink by that.
-    sinking_m = float(means[:half].mean() - means[half:].mean()) / half
-    return height + sinking_m * np.arange(len(height)) / SAMPLES_PER_REVOLUTION, sinking_m
-
-
 def _draw_orbit(axes: Axes, window: Window, height: NDArray[np.float64], shown: int) -> None:
     if window.excitation_hz <= 0.0:
         say_nothing(axes, "the eccentric stands")
@@ -153,15 +145,6 @@ def _draw_orbit(axes: Axes, window: Window, height: NDArray[np.float64], shown: 
     axes.set_aspect("equal", adjustable="datalim")
     axes.set_xlabel("forward, mm")
     axes.set_ylabel("up, mm")
-
-
-def twice_integrated(acceleration: NDArray[np.float64], rate_hz: float) -> NDArray[np.float64]:
-    """Return the periodic displacement without mean whose second derivative is an acceleration of whole periods."""
-    spectrum = np.fft.rfft(acceleration)
-    turn = 2.0 * np.pi * np.fft.rfftfreq(len(acceleration), 1.0 / rate_hz)
-    spectrum[0] = 0.0
-    spectrum[1:] /= -(turn[1:] ** 2)
-    return np.fft.irfft(spectrum, len(acceleration))
 
 
 def _draw_modes(axes: Axes, record: RunRecord) -> None:

@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 from roller_sim_ros import commands
-from roller_sim_ros.report.figures import twice_integrated, without_sinking
+from roller_sim_ros.report.displacement import twice_integrated, without_sinking
 from roller_sim_ros.report.run_record import read_run
 from roller_sim_ros.report.windows import read_windows
 from roller_sim_ros.traces.reader import TraceReader
