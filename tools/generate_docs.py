@@ -42,7 +42,7 @@ clips, and never wraps around; what is no number has the most negative count. Wi
 low-passed signal is interpolated between the model's samples by a windowed sinc: what folds back is what the
 low-pass lets through, what interpolation adds is below 1e-3 up to order 40. The model has 128 samples per
 revolution and knows nothing beyond order 64. A sample comes once the model is 12 samples further. The built-in
-meter needs samples that go with the eccentric; at a fixed rate it has no value."""
+meter lays samples of a fixed rate on the eccentric's angle first, so its value comes a little after the revolution."""
 
 FAULTS_TEXT = """\
 Scheduled in a scenario by time, chainage, pass or revolution, or injected and cleared while the roller runs. A

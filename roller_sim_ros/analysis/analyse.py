@@ -315,14 +315,12 @@ class _Pass:
     def _warn(self) -> None:
         """Say what makes the values less than they seem."""
         result = self.result
-        status = result.history.integers("status")
-        if len(status) and np.all(status & Status.WINDOW_FILLING):
-            per_turn = round(self._samples_per_turn)
-            if per_turn not in (0, self._count) and abs(self._samples_per_turn - per_turn) < 1e-6:
-                result.warnings.append(
-                    f"the stream has {per_turn} samples per revolution, not {self._count}: evaluate it with "
-                    f"--samples-per-rev {per_turn}"
-                )
+        per_turn = round(self._samples_per_turn)
+        if per_turn not in (0, self._count) and abs(self._samples_per_turn - per_turn) < 1e-6:
+            result.warnings.append(
+                f"the stream has {per_turn} samples per revolution, not {self._count}, which are interpolated: "
+                f"evaluate it with --samples-per-rev {per_turn}"
+            )
         if self._other_window:
             result.warnings.append(
                 f"the recorded meter has a window of {self._other_window} revolutions, not of "

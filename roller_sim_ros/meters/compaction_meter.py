@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -20,10 +20,12 @@ from roller_sim_ros.meters.drum import Drum, DrumMotion
 from roller_sim_ros.meters.flight import lifts
 from roller_sim_ros.meters.harmonics import HarmonicsWindow
 from roller_sim_ros.meters.mode import Mode, metered_mode
+from roller_sim_ros.meters.order_tracking import OrderTracker
 from roller_sim_ros.meters.period import NO_PERIOD, TOLERANCE, PeriodWindow
 from roller_sim_ros.meters.registry import FURTHER, ORDERS, evaluate, evaluate_drum
 from roller_sim_ros.meters.revolutions import (
     SAME_PHASE_SAMPLES,
+    SYNCHRONOUS,
     Loss,
     Revolution,
     RevolutionCollector,
@@ -31,6 +33,10 @@ from roller_sim_ros.meters.revolutions import (
 )
 from roller_sim_ros.meters.status import Status
 from roller_sim_ros.parameters import SAMPLES_PER_REVOLUTION
+
+TURN = 2.0 * math.pi
+TRACKED_HZ = 10.0
+"""Excitation frequency from which samples of a fixed rate are read in orders; rollers vibrate at 25 to 40 Hz."""
 
 STEADY = 1e-9
 """Relative difference below which two frequencies, or two amplitudes, are the same."""
@@ -96,6 +102,9 @@ class CompactionMeter:
     samples are missing gives no value; the window begins anew after it, with GAP until it is full. A sample
     that is no finite number counts as missing, except that its revolution gives a value, NaN with GAP.
 
+    Samples of a fixed rate are laid on the eccentric's angle first (`order_tracking`), above `TRACKED_HZ`: their values
+    come a little after the revolution.
+
     Parameters
     ----------
     window_revolutions : int
@@ -129,9 +138,8 @@ class CompactionMeter:
             )
         self.window_revolutions = window_revolutions
         self.noise_floor_m_s2 = noise_floor_m_s2
-        self._collector = RevolutionCollector(
-            1, window_revolutions * samples_per_revolution, samples_per_revolution
-        )
+        self._collector = self._new_collector(samples_per_revolution)
+        self._tracker: OrderTracker | None = None
         self._harmonics = HarmonicsWindow(window_revolutions, ORDERS, samples_per_revolution)
         self._period = PeriodWindow(window_revolutions, samples_per_revolution, period_tolerance)
         self._frequencies = np.zeros(window_revolutions)
@@ -176,7 +184,45 @@ class CompactionMeter:
             as clipped then.
         """
         self._amplitude_m = amplitude_m
-        timing = Timing(sample_period_s, excitation_hz, phase_increment_rad)
+        count = self._samples_per_revolution
+        synchronous = abs(phase_increment_rad * count / TURN - 1.0) < SYNCHRONOUS
+        tracked = not synchronous and excitation_hz >= TRACKED_HZ and phase_increment_rad > 0.0
+        if tracked != (self._tracker is not None):
+            self._collector = self._new_collector(count)
+            self._clear()
+            self._clipped_before = 0
+            self._tracker = OrderTracker(count) if tracked else None
+        if self._tracker is None:
+            timing = Timing(sample_period_s, excitation_hz, phase_increment_rad)
+            return self._fed(first_sample, vertical, timing, eccentric_phase_rad, clipped)
+        values = []
+        for item in self._tracker.feed(
+            first_sample,
+            vertical,
+            excitation_hz,
+            eccentric_phase_rad,
+            phase_increment_rad,
+            clipped,
+        ):
+            timing = Timing(1.0 / (item.excitation_hz * count), item.excitation_hz, TURN / count)
+            found = self._fed(item.number * count, item.samples, timing, 0.0, int(item.clipped))
+            values += [replace(value, last_sample=item.last_sample) for value in found]
+        return values
+
+    def _new_collector(self, samples_per_revolution: int) -> RevolutionCollector:
+        return RevolutionCollector(
+            1, self.window_revolutions * samples_per_revolution, samples_per_revolution
+        )
+
+    def _fed(
+        self,
+        first_sample: int,
+        vertical: NDArray[np.floating],
+        timing: Timing,
+        eccentric_phase_rad: float,
+        clipped: int,
+    ) -> list[MeterValue]:
+        """Return the values of the revolutions that samples complete which go with the eccentric."""
         values = []
         for item in self._collector.feed(first_sample, [vertical], timing, eccentric_phase_rad):
             if isinstance(item, Loss):

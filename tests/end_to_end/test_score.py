@@ -17,6 +17,7 @@ from roller_sim_ros.emulation import Emulator
 from roller_sim_ros.parameters import Pacing
 from roller_sim_ros.scenario import read_scenario, start_of
 from roller_sim_ros.scenario.shipped import shipped_scenarios
+from roller_sim_ros.sensors import Choice
 from roller_sim_ros.traces.registration import register, register_all
 from roller_sim_ros.traces.writer import TraceWriter
 from roller_sim_ros.wire.types import decode, encode, message_class
@@ -37,12 +38,13 @@ def wrong_cmv() -> Callable[..., float]:
     return module.wrong_cmv
 
 
-def conduct(name: str, path: Path) -> Path:
+def conduct(name: str, path: Path, *sensors: Choice) -> Path:
     """Record a scenario, with the wrong meter's values on /wrong_cmv, each a revolution after its samples."""
-    emulator = Emulator(
-        start_ns=START_NS, **start_of(read_scenario(shipped_scenarios()[name]))._asdict()
-    )
-    wrong, window = wrong_cmv(), np.zeros(0)
+    start = start_of(read_scenario(shipped_scenarios()[name]))
+    if sensors:
+        start = start._replace(sensors=sensors)
+    emulator = Emulator(start_ns=START_NS, **start._asdict())
+    wrong, window, count = wrong_cmv(), np.zeros(0), 0
     with TraceWriter(path, {}) as trace:
         names = register_all(trace, Pacing())
         register(trace, "/wrong_cmv", NUMBER, None)
@@ -54,11 +56,11 @@ def conduct(name: str, path: Path) -> Path:
             end_ns = START_NS + round((block.time_s + 128 * block.sample_period_s) * 1e9)
             for message in messages:
                 trace.put(names[message.topic], message.data, end_ns, end_ns)
-                if message.topic == "drum/acceleration":
+                if message.topic == "drum/acceleration" and not sensors:
                     samples = decode(message.data, message.type_name)
                     count = round(0.1 / samples.sample_period)
                     window = np.append(window, samples.vertical)[-count:]
-            if len(window) == count:
+            if len(window) and len(window) == count:
                 value = wrong(window, block.sample_period_s, block.excitation_hz)
                 data = encode(message_class(NUMBER)(float(value)), NUMBER)
                 trace.put("/wrong_cmv", data, end_ns + 10_000_000, end_ns)
@@ -73,6 +75,18 @@ def campaign(tmp_path_factory: pytest.TempPathFactory) -> Path:
 @pytest.fixture(scope="module")
 def stiffening(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return conduct("soft_to_stiff", tmp_path_factory.mktemp("score") / "stiffening.mcap")
+
+
+def test_it_passes_with_a_sensor_of_a_fixed_rate(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    sheet = {"sample_rate_hz": 4000.0, "bandwidth_hz": 1500.0, "clock_skew_ppm": 100.0}
+    trace = conduct("soft_to_stiff", tmp_path / "trace.mcap", Choice("accelerometer", sheet))
+    for topic in ("meter", "cmv"):
+        code, report = judged(capsys, trace, topic)
+        assert (code, failed(report)) == (0, [])
+        (rms,) = [row for row in report["rows"] if row["name"] == "rms"]
+        assert rms["found"] < 1.0
 
 
 def judged(
