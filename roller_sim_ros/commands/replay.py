@@ -79,7 +79,9 @@ def _summary(run: ReplayedRun) -> str:
         f"of {len(run.messages)} topics are the same"
     )
     if run.lost:
-        text += f", {run.lost} are not in the trace, nor perhaps what came in with them"
+        text += f", {run.lost} are not in the trace"
+    if run.lost_inputs:
+        text += f"; of what came in, {run.lost_inputs} are not in it: a difference may come of that"
     return text
 
 

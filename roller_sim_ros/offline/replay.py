@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import deque
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
 from pathlib import Path
 
@@ -44,8 +44,8 @@ class ReplayedRun:
         Their time.
     messages : dict
         {topic: messages that were the same}.
-    lost : int
-        Messages that the trace does not hold.
+    lost, lost_inputs : int
+        Messages that the trace does not hold; of those that say what came in, which may make a difference.
     difference : Difference or None
         The first one; nothing after it was looked at.
     hashes : dict
@@ -57,6 +57,7 @@ class ReplayedRun:
     duration_s: float = 0.0
     messages: dict[str, int] = field(default_factory=dict)
     lost: int = 0
+    lost_inputs: int = 0
     difference: Difference | None = None
     hashes: dict[str, str] = field(default_factory=dict)
 
@@ -140,10 +141,11 @@ class Replay:
         """Go through the trace up to its end or the first difference."""
         run: _Run | None = None
         share = 0.0
-        for message in self._reader.messages(self._names):
+        messages = self._reader.messages(self._names)
+        for message in messages:
             topic = self._names[message.topic]
             if topic is topics.INPUTS:
-                self._inputs.count(message.sequence)
+                lost = self._inputs.count(message.sequence)
                 item = input_of(decode(message.data, message.type_name))
                 if item.kind in (InputKind.BEGIN, InputKind.RESTORE):
                     if run is not None and run.end():
@@ -154,8 +156,10 @@ class Replay:
                     self.runs.append(run.result)
                 elif run is not None:
                     run.inputs.append(item)
+                    run.result.lost_inputs += lost
             elif run is not None:
                 if run.take(topic, message):
+                    run.result.lost_inputs += self._lost_inputs(messages)
                     run.end()
                     return
             elif topic is topics.TRUTH:
@@ -170,6 +174,13 @@ class Replay:
             )
         run.end()
         progress(1.0)
+
+    def _lost_inputs(self, messages: Iterator[TraceMessage]) -> int:
+        """Return how many inputs are lost before the next one that is there."""
+        for message in messages:
+            if self._names[message.topic] is topics.INPUTS:
+                return self._inputs.count(message.sequence)
+        return 0
 
     def _messages_of(self, topic: topics.Topic) -> int:
         """Return how many messages of a topic the trace holds."""

@@ -284,6 +284,19 @@ def test_lost_messages_are_counted_and_the_rest_compared(trace: Path, tmp_path: 
     assert lost > 100
 
 
+def test_lost_inputs_are_told(
+    trace: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    def edit(_: int, message: TraceMessage) -> TraceMessage | None:
+        kind = message.topic == "/inputs" and decode(message.data, message.type_name).kind
+        return None if kind in ("command", "travel") else message
+
+    code, text = told(capsys, edited(trace, tmp_path / "lossy.mcap", edit))
+    assert code == 1
+    assert "; of what came in, 2 are not in it: a difference may come of that" in text
+    assert "first differs: " in text
+
+
 def test_a_gap_of_all_topics_is_gone_over(trace: Path, tmp_path: Path) -> None:
     found = replay(
         edited(
