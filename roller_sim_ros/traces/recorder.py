@@ -185,7 +185,7 @@ class Recorder:
                 self._open
                 and self._ring.recording
                 and (not channel.unannounced or self._announce(channel))
-                and self._push(channel, log_time_ns, publish_time_ns, data)
+                and self._push(Kind.MESSAGE, channel, (log_time_ns, publish_time_ns), data)
             ):
                 return True
             channel.dropped += 1
@@ -234,24 +234,24 @@ class Recorder:
 
     def _push(
         self,
+        kind: Kind,
         channel: _Channel,
-        log_time_ns: int,
-        publish_time_ns: int,
+        times_ns: tuple[int, int],
         data: bytes | memoryview,
     ) -> bool:
-        """Put a message into the ring, as soon as there is room if that is soon enough."""
-        push, number, sequence = self._ring.push, channel.number, channel.sequence
-        if push(Kind.MESSAGE, number, sequence, log_time_ns, publish_time_ns, data):
+        """Put something into the ring, as soon as there is room if that is soon enough."""
+        number, sequence = channel.number, channel.sequence if kind is Kind.MESSAGE else 0
+        if self._ring.push(kind, number, sequence, *times_ns, data):
             return True
         deadline = time.monotonic() + self._patience_s
         while time.monotonic() < deadline and self._process.poll() is None and self._ring.recording:
             time.sleep(ROOM_S)
-            if push(Kind.MESSAGE, number, sequence, log_time_ns, publish_time_ns, data):
+            if self._ring.push(kind, number, sequence, *times_ns, data):
                 return True
         return False
 
     def _announce(self, channel: _Channel) -> bool:
-        if not self._ring.push(Kind.CHANNEL, channel.number, 0, 0, 0, channel.unannounced):
+        if not self._push(Kind.CHANNEL, channel, (0, 0), channel.unannounced):
             return False
         channel.unannounced = b""
         return True

@@ -87,6 +87,14 @@ def scenario(tmp_path_factory) -> Path:
     return path
 
 
+@pytest.fixture
+def short(tmp_path: Path) -> Path:
+    """Return a scenario of 3 s, forth and back."""
+    path = tmp_path / "short.yaml"
+    path.write_text("lane: {length_m: 1.5}\ntravel: {passes: 2}\nseed: 5\n", encoding="utf-8")
+    return path
+
+
 @pytest.fixture(scope="session")
 def stepped_sim(scenario, tmp_path_factory) -> Iterator[tuple[int, Sim]]:
     """Return domain and process of a roller in lock step on a scenario."""

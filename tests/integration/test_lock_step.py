@@ -247,10 +247,10 @@ def test_features_are_those_of_lock_step(stepper):
     assert "lock step" in features.custom_info
 
 
-def test_recording_drops_nothing_and_every_run_has_its_own(start, client, scenario, tmp_path: Path):
+def test_recording_drops_nothing_and_every_run_has_its_own(start, client, short, tmp_path: Path):
     bag = tmp_path / "trace.mcap"
-    sim = start("--lock-step", "--scenario", str(scenario), "--record", str(bag))
-    client.advance(revolutions=400)
+    sim = start("--lock-step", "--scenario", str(short), "--record", str(bag))
+    client.advance(revolutions=90)
     response = client.advance(seconds=1.0)
     assert client.ask(ResetSimulation, "reset_simulation").result.result == Result.RESULT_OK
     client.advance(revolutions=1)
@@ -281,11 +281,11 @@ def test_quitting_ends_the_process(start, client, tmp_path: Path):
     assert end(recorded(bag, "/truth")[-1]) == 256
 
 
-def test_exit_at_end_stops_with_the_sample_at_which_all_is_driven(start, client, scenario):
-    sim = start("--lock-step", "--exit-at-end", "--scenario", str(scenario))
+def test_exit_at_end_stops_with_the_sample_at_which_all_is_driven(start, client, short):
+    sim = start("--lock-step", "--exit-at-end", "--scenario", str(short))
     response = client.advance(seconds=60.0)
     assert sim.wait() == 0
-    driven = json.loads(roller_sim("run", scenario, "--json", "-"))
+    driven = json.loads(roller_sim("run", short, "--json", "-"))
     assert nanoseconds(response.stamp) == pytest.approx(driven["duration_s"] * 1e9, abs=1.0)
     assert sim.complaints == []
 

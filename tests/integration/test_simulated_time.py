@@ -82,12 +82,10 @@ def test_simulated_time_plays_pauses_steps_and_stops(start, client):
     assert sim.complaints == []
 
 
-def test_scenario_as_fast_as_possible_ends_by_itself_with_a_whole_bag(
-    start, scenario, tmp_path: Path
-):
+def test_scenario_as_fast_as_possible_ends_by_itself_with_a_whole_bag(start, short, tmp_path: Path):
     bag = tmp_path / "trace.mcap"
     sim = start(
-        *("--scenario", str(scenario), "--clock", "sim", "--speed", "0", "--exit-at-end"),
+        *("--scenario", str(short), "--clock", "sim", "--speed", "0", "--exit-at-end"),
         *("--record", str(bag), "--ros-args", "-p", "pacing.publish_clock:=false"),
     )
     assert sim.wait() == 0

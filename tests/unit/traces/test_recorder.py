@@ -177,6 +177,39 @@ def test_topic_that_found_the_ring_full_is_announced_later(tmp_path: Path) -> No
     assert numbers(path, "/late") == [3]
 
 
+def test_patient_recorder_waits_for_room_and_drops_nothing(tmp_path: Path) -> None:
+    path = tmp_path / "a.mcap"
+    recorder = Recorder(path, {}, capacity=4096, patience_s=60.0)
+    recorder.register("/a", *FLOAT)
+    taken: list[bool] = []
+
+    def run() -> None:
+        taken.extend(recorder.put("/a", data(number), number, number) for number in range(300))
+        recorder.register("/late", *FLOAT)
+        taken.append(recorder.put("/late", data(7), 300, 300))
+
+    thread = threading.Thread(target=run)
+    with stopped(child_of(recorder)):
+        thread.start()
+        # 4096 bytes are room for 85 messages: it waits for more.
+        thread.join(0.3)
+        assert thread.is_alive()
+    thread.join(60.0)
+    assert len(taken) == 301
+    assert all(taken)
+    assert sum(recorder.close().dropped.values()) == 0
+    assert numbers(path, "/a") == list(range(300))
+    assert numbers(path, "/late") == [7]
+
+
+def test_patience_ends_with_the_recording_process(tmp_path: Path) -> None:
+    recorder = Recorder(tmp_path / "a.mcap", {}, capacity=4096, patience_s=60.0)
+    recorder.register("/a", *FLOAT)
+    os.kill(child_of(recorder), signal.SIGKILL)
+    wait_for(lambda: not recorder.put("/a", data(1), 1, 1))
+    assert recorder.close().state is State.FAILED
+
+
 def test_threads_may_put_at_the_same_time(tmp_path: Path) -> None:
     path = tmp_path / "a.mcap"
     recorder = Recorder(path, {})
