@@ -5,6 +5,7 @@ from __future__ import annotations
 import argparse
 import os
 import shlex
+import signal
 import sys
 from contextlib import nullcontext
 from pathlib import Path
@@ -49,11 +50,19 @@ def main(argv: list[str] | None = None) -> int:
         0 when the meter passed, 1 when it failed, 2 when it could not be judged.
     """
     arguments = _parser().parse_args(argv)
+    # As after Ctrl-C, roller and meter are ended too.
+    before = signal.signal(signal.SIGTERM, _interrupt)
     try:
         return _bench(arguments)
     except RollerSimError as error:
         print(f"roller-sim bench: error: {error}", file=sys.stderr)
         return 2
+    finally:
+        signal.signal(signal.SIGTERM, before)
+
+
+def _interrupt(*_: object) -> None:
+    raise KeyboardInterrupt
 
 
 def _bench(arguments: argparse.Namespace) -> int:

@@ -115,13 +115,13 @@ def add_score_arguments(parser: argparse.ArgumentParser) -> None:
         "--flag-field",
         metavar="NAME",
         default="",
-        help="number that is not 0, or true, when the value is not to be trusted (default: status)",
+        help="number that is not 0, or true, when the value is not to be trusted (default: status; -: none)",
     )
     parser.add_argument(
         "--alarm-field",
         metavar="NAME",
         default="",
-        help="whether the drum double-jumps: true or false, or an RMV (default: double_jump or rmv)",
+        help="whether the drum double-jumps: true or false, or an RMV (default: double_jump or rmv; -: none)",
     )
     parser.add_argument(
         "--match",

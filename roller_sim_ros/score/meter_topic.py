@@ -15,12 +15,15 @@ from roller_sim_ros.analysis.samples import stamp_ns
 VALUE_FIELDS = ("cmv", "data", "value")
 """Names that a value has where nothing is said, the first that is there."""
 
+NONE = "-"
+"""Chosen as a field: none, though there is one of the usual name."""
+
 FLAG_FIELD, ALARM_FIELD, RMV_FIELD = "status", "double_jump", "rmv"
 
 
 @dataclass(frozen=True)
 class Choice:
-    """Which fields are meant; empty: found by their names.
+    """Which fields are meant; empty: found by their names, ``-``: none.
 
     Attributes
     ----------
@@ -91,10 +94,8 @@ class MeterTopic:
         self.type_name = type_name
         numbers = dict(_numbers(sample))
         self.field = choice.value or self._value_field(numbers)
-        self.flag = choice.flag or (FLAG_FIELD if FLAG_FIELD in numbers else "")
-        self.alarm = choice.alarm or next(
-            (field for field in (ALARM_FIELD, RMV_FIELD) if field in numbers), ""
-        )
+        self.flag = _chosen(choice.flag, (FLAG_FIELD,), numbers)
+        self.alarm = _chosen(choice.alarm, (ALARM_FIELD, RMV_FIELD), numbers)
         for field in (self.field, self.flag, self.alarm):
             if field and field not in numbers:
                 raise BagError(
@@ -126,6 +127,13 @@ class MeterTopic:
             alarm=alarm,
             stamp_ns=stamp_ns(message) if self.stamped else None,
         )
+
+
+def _chosen(choice: str, names: tuple[str, ...], numbers: dict[str, Any]) -> str:
+    """Return the field that was chosen, else the first of some that is there, else nothing."""
+    if choice:
+        return "" if choice == NONE else choice
+    return next((name for name in names if name in numbers), "")
 
 
 def _numbers(message: Any, prefix: str = "") -> Iterator[tuple[str, Any]]:

@@ -129,7 +129,7 @@ def _number(value: float, unit: str) -> str:
     if math.isnan(value):
         return "–"
     if math.isinf(value):
-        return "never" if unit == "revolutions" else "endless"
+        return "never" if unit == "revolutions" else "∞"
     text = f"{value:.0f}" if value == int(value) else f"{value:.3g}"
     return f"{text} {unit}".rstrip()
 

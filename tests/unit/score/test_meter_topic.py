@@ -71,6 +71,15 @@ def test_the_meter_s_own_message_has_all() -> None:
     assert given.stamp_ns == 3_000_000_500
 
 
+def test_a_field_of_a_usual_name_may_mean_something_else() -> None:
+    message = message_class("roller_sim_ros/msg/CompactionMeter")(
+        header(3), 2047, 16, 41.5, 60.0, 28.0, 20.0, 0.1, 2, 3, 8
+    )
+    meter = topic(message, flag="-", alarm="-")
+    assert (meter.flag, meter.alarm) == ("", "")
+    assert not meter.read(message).flagged
+
+
 def test_fields_can_be_chosen_and_nested() -> None:
     meter = topic(READING, value="stiffness", alarm="jumping", flag="raw")
     given = meter.read(READING)

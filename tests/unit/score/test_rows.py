@@ -50,6 +50,14 @@ def test_bias_and_rms_are_those_of_the_definition() -> None:
     )
 
 
+def test_any_number_is_judged() -> None:
+    evidence = right()
+    for odd in (1e308, -1e308, 0.0, math.inf):
+        value = evidence.truth.cmv.copy()
+        value[300:400] = odd
+        assert failed(with_values(evidence, value))
+
+
 def test_too_few_values_are_no_verdict() -> None:
     evidence = right()
     few = np.where(np.arange(REVOLUTIONS) < 40, evidence.truth.cmv, np.nan)
