@@ -6,6 +6,7 @@ of a forged state could.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from typing import Any
 
@@ -18,6 +19,7 @@ from roller_sim_ros.drum_soil.ground import Ground
 from roller_sim_ros.drum_soil.modes import ROWS
 from roller_sim_ros.drum_soil.rational_ground import RationalGround
 from roller_sim_ros.meters.harmonics import HarmonicsWindow
+from roller_sim_ros.meters.order_tracking import OrderTracker
 from roller_sim_ros.meters.period import PeriodWindow
 from roller_sim_ros.meters.revolutions import RevolutionCollector
 from roller_sim_ros.parameters import SAMPLES_PER_REVOLUTION
@@ -107,6 +109,15 @@ def _check_period(window: PeriodWindow) -> None:
     _array(window, window._extremes, (2, revolutions))
 
 
+def _check_tracker(tracker: OrderTracker) -> None:
+    _require(tracker, tracker._count == N)
+    _array(tracker, tracker._kept, (len(tracker._kept),))
+    if tracker._expected is not None:
+        _require(tracker, tracker._kept_from + len(tracker._kept) == tracker._expected)
+    for item in tracker._begun:
+        _require(tracker, math.isfinite(item.start) and 0.0 < item.length < math.inf)
+
+
 def _check_drift(drift: GaussMarkov) -> None:
     _array(drift, drift._state, (1,))
 
@@ -149,6 +160,7 @@ _CHECKS: dict[type[Any], Callable[[Any], None]] = {
     RevolutionCollector: _check_collector,
     HarmonicsWindow: _check_harmonics,
     PeriodWindow: _check_period,
+    OrderTracker: _check_tracker,
     GaussMarkov: _check_drift,
     LowPass: _check_pair_of_states,
     Noise: _check_pair_of_states,
