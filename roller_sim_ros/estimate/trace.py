@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field
-from itertools import pairwise
 from pathlib import Path
 from typing import Any
 
@@ -23,6 +22,7 @@ from roller_sim_ros.analysis.samples import (
 )
 from roller_sim_ros.analysis.topics import Selection, select
 from roller_sim_ros.estimate.arrays import WINDOW_REVOLUTIONS, step_of
+from roller_sim_ros.estimate.imu_pieces import imu_pieces
 from roller_sim_ros.estimate.known import known_of
 from roller_sim_ros.estimate.pulses import PulsePhase
 from roller_sim_ros.estimate.sliding import (
@@ -46,12 +46,6 @@ PROGRESS_MESSAGES = 200
 
 REACH = 16 * SAMPLES_PER_REVOLUTION
 """Samples by which a piece may be late."""
-
-TOGETHER = 64
-"""Imu samples that are looked at together."""
-
-APART = 1.5
-"""Periods between two Imu samples beyond which some are missing."""
 
 
 @dataclass(frozen=True)
@@ -236,7 +230,7 @@ class _Pass:
     def run(self, on_progress: Callable[[float], None] | None) -> TraceEstimate:
         """Read everything and estimate."""
         source = self._selection.source
-        pieces = _pieces if source.type == ACCELERATION_TYPE else _imu_pieces
+        pieces = _pieces if source.type == ACCELERATION_TYPE else imu_pieces
         names = {name for name in (source.name, self._selection.exciter) if name}
         for piece in pieces(self._messages(names, on_progress)):
             self._on_piece(piece)
@@ -362,44 +356,3 @@ def _pieces(messages: Iterator[Any]) -> Iterator[Piece]:
     reader = AccelerationReader()
     for message in messages:
         yield from reader.read(message)
-
-
-def _imu_pieces(messages: Iterator[Any]) -> Iterator[Piece]:
-    """Yield the samples of an Imu stream, some together where none is missing."""
-    stamps: list[int] = []
-    values: list[float] = []
-    first = 0
-    usual = math.inf
-    for message in messages:
-        stamp = stamp_ns(message)
-        if stamps:
-            apart = stamp - stamps[-1]
-            if apart <= 0:
-                continue
-            missing = apart > APART * usual
-            usual = min(usual, apart) if not missing else usual
-            if missing or len(stamps) >= TOGETHER:
-                yield _imu_piece(first, stamps, values)
-                first += len(stamps) + (1 if missing else 0)
-                stamps, values = [], []
-        stamps.append(stamp)
-        values.append(float(message.linear_acceleration.z))
-    if stamps:
-        yield _imu_piece(first, stamps, values)
-
-
-def _imu_piece(first: int, stamps: list[int], values: list[float]) -> Piece:
-    apart = np.array([later - earlier for earlier, later in pairwise(stamps)])
-    period_s = float(apart.mean()) / NANOSECONDS if len(apart) else 0.0
-    vertical = np.array(values, dtype=np.float32)
-    return Piece(
-        first_sample=first,
-        stamp_ns=stamps[0],
-        sample_period_s=period_s,
-        excitation_hz=math.nan,
-        phase_rad=math.nan,
-        phase_increment_rad=math.nan,
-        vertical=vertical,
-        horizontal=np.zeros_like(vertical),
-        specific_force=True,
-    )
