@@ -22,6 +22,10 @@ ROUNDS = 5
 HALF_SPACES = ("two-pole", "rational", "exact")
 SCENARIO = "ten_passes_to_refusal"
 HZ = 28.0
+GROUNDS = (
+    "On a lane the half space is made anew for every ground that the roller meets: two-pole by a formula, exact by its "
+    "closed form, rational by a fit."
+)
 
 Timed = Callable[[str], float]
 """Returns the CPU time of one revolution on a half space, s."""
@@ -54,7 +58,10 @@ def measure(_options: Options) -> Table:
         ),
         columns=("way", *HALF_SPACES, "aim"),
         rows=rows,
-        notes=[note],
+        notes=[
+            GROUNDS,
+            note,
+        ],
     )
 
 
