@@ -44,7 +44,12 @@ class Result:
 
 
 def run(
-    target: Target, items: int, number: int, tell: Callable[[Result], None] = lambda _: None
+    target: Target,
+    items: int,
+    number: int,
+    tell: Callable[[Result], None] = lambda _: None,
+    *,
+    shrink: bool = True,
 ) -> Result:
     """Feed at least so many items.
 
@@ -58,6 +63,8 @@ def run(
         Seed: the same one feeds the same items.
     tell : callable
         Told the result so far, now and then.
+    shrink : bool
+        Whether a finding is shrunk: what is fed has to begin anew with each sequence for that.
 
     Raises
     ------
@@ -83,7 +90,7 @@ def run(
             database=None,
             report_multiple_bugs=False,
             deadline=None,
-            phases=(Phase.generate, Phase.shrink),
+            phases=(Phase.generate, Phase.shrink) if shrink else (Phase.generate,),
             suppress_health_check=list(HealthCheck),
             print_blob=False,
         )(seed(number)(given(target.items)(feed)))

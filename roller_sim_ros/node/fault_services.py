@@ -12,7 +12,7 @@ from roller_sim_ros.errors import RollerSimError
 from roller_sim_ros.faults import FAULTS, FaultRefused, Span
 from roller_sim_ros.node.roller import Roller
 from roller_sim_ros.parameters import Value
-from roller_sim_ros.parameters.quantity import declared
+from roller_sim_ros.parameters.quantity import declared, shown, shown_name
 from roller_sim_ros.srv import ClearFaults, InjectFault
 
 
@@ -84,7 +84,7 @@ def typed(fault_id: str, names: Sequence[str], texts: Sequence[str]) -> dict[str
             f"{len(names)} names and {len(texts)} values: there must be one value for each name"
         )
     if len(set(names)) != len(names):
-        raise FaultRefused(f"a name is given twice: {', '.join(names)}")
+        raise FaultRefused(f"a name is given twice: {', '.join(map(shown_name, names))}")
     fault = FAULTS.get(fault_id)
     defaults = {name: default for name, _, default in declared(fault)} if fault else {}
     return {
@@ -96,13 +96,13 @@ def typed(fault_id: str, names: Sequence[str], texts: Sequence[str]) -> dict[str
 def _value(name: str, text: str, default: Value | None) -> Value:
     if isinstance(default, bool):
         if text not in ("true", "false"):
-            raise FaultRefused(f"{name} = {text!r}: must be true or false")
+            raise FaultRefused(f"{name} = {shown(text)}: must be true or false")
         return text == "true"
     if isinstance(default, int | float):
         try:
             number = float(text)
         except ValueError:
-            raise FaultRefused(f"{name} = {text!r}: must be a number") from None
+            raise FaultRefused(f"{name} = {shown(text)}: must be a number") from None
         whole = isinstance(default, int) and number.is_integer()
         return int(number) if whole else number
     return text

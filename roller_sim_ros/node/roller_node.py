@@ -16,6 +16,7 @@ from rclpy.timer import Timer
 from roller_sim_ros.errors import RollerSimError
 from roller_sim_ros.node import parameters
 from roller_sim_ros.node.fault_services import FaultServices
+from roller_sim_ros.node.parameter_service import CheckedParameterService
 from roller_sim_ros.node.report import Report
 from roller_sim_ros.node.roller import Roller
 from roller_sim_ros.node.simulation_services import SimulationServices
@@ -67,7 +68,9 @@ class RollerNode(LifecycleNode):
             namespace=namespace,
             parameter_overrides=parameters.as_overrides(dict(overrides or {})),
             automatically_declare_parameters_from_overrides=True,
+            start_parameter_services=False,
         )
+        self._parameter_requests = CheckedParameterService(self)
         self.roller = Roller(self, parameters.declare(self))
         self.on_report: Callable[[Report], None] | None = None
         self._tick_timer: Timer | None = None

@@ -16,6 +16,7 @@ from roller_sim_ros.msg import Result, SimulationState, SimulatorFeatures
 from roller_sim_ros.node.roller import Roller
 from roller_sim_ros.node.run import Run
 from roller_sim_ros.parameters import SAMPLES_PER_REVOLUTION
+from roller_sim_ros.parameters.quantity import shown
 from roller_sim_ros.srv import (
     Advance,
     GetSimulationState,
@@ -226,7 +227,7 @@ class SimulationServices:
                 file.write(state)
         except (OSError, ValueError) as error:
             raise Refused(
-                Result.RESULT_OPERATION_FAILED, f"path {request.path!r}: {_said(error)}"
+                Result.RESULT_OPERATION_FAILED, f"path {shown(request.path)}: {_said(error)}"
             ) from error
 
     def _restore(self, request: Any, _response: Any) -> None:
@@ -246,11 +247,11 @@ class SimulationServices:
                 state = Path(request.path).read_bytes()
             except FileNotFoundError:
                 raise Refused(
-                    Result.RESULT_NOT_FOUND, f"path {request.path!r}: there is no such file"
+                    Result.RESULT_NOT_FOUND, f"path {shown(request.path)}: there is no such file"
                 ) from None
             except (OSError, ValueError) as error:
                 raise Refused(
-                    Result.RESULT_OPERATION_FAILED, f"path {request.path!r}: {_said(error)}"
+                    Result.RESULT_OPERATION_FAILED, f"path {shown(request.path)}: {_said(error)}"
                 ) from error
         self._roller.go_on(snapshot.restore(state, told=True))
 
