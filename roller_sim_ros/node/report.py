@@ -9,6 +9,7 @@ from roller_sim_ros.meters import MeterValue
 from roller_sim_ros.node.clock_owner import said
 from roller_sim_ros.node.lateness import LatenessSummary
 from roller_sim_ros.session import ExciterStatus
+from roller_sim_ros.site import Position
 from roller_sim_ros.traces.recorder import RecorderStatus
 from roller_sim_ros.traces.ring import State
 from roller_sim_ros.wire.messages import Diagnostic, Level
@@ -36,6 +37,8 @@ class Drive:
         Steps whose phase changes did not settle.
     finite : bool
         Whether the motion is still given in numbers.
+    position : Position or None
+        Where the roller is on its lane; none: there is no scenario.
     """
 
     simulated_s: float
@@ -47,6 +50,7 @@ class Drive:
     meter: MeterValue | None
     unsettled_steps: int
     finite: bool
+    position: Position | None
 
 
 @dataclass(frozen=True)

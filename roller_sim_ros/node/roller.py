@@ -29,6 +29,7 @@ from roller_sim_ros.node.report import Drive, RecordingReport, Report, diagnosti
 from roller_sim_ros.node.run import Run
 from roller_sim_ros.node.warm_up import try_out, warm_up
 from roller_sim_ros.parameters import PARAMETERS, Configuration, ParameterError, Value
+from roller_sim_ros.scenario import Scenario
 from roller_sim_ros.session import Refusal
 from roller_sim_ros.wire import messages, topics
 
@@ -312,7 +313,7 @@ class Roller:
         exciter, travel = self.inputs.exciter, self.inputs.travel
         report = Report(
             node=self._node.get_fully_qualified_name(),
-            drive=_drive(pacer.run.emulator) if pacer else None,
+            drive=_drive(pacer.run.emulator, self._beginning.scenario) if pacer else None,
             paused=pacer is not None and not pacer.playing,
             simulated_time=self.simulated_time,
             rivals=self._clock.rivals if self._clock else (),
@@ -473,7 +474,7 @@ def _numbered(path: str, before: int) -> str:
     return str(first.with_name(f"{first.stem}-{before + 1}{first.suffix}"))
 
 
-def _drive(emulator: Emulator) -> Drive | None:
+def _drive(emulator: Emulator, scenario: Scenario | None) -> Drive | None:
     block = emulator.block
     if block is None:
         return None
@@ -487,4 +488,5 @@ def _drive(emulator: Emulator) -> Drive | None:
         meter=emulator.meter_value,
         unsettled_steps=emulator.session.unsettled_steps,
         finite=bool(np.isfinite(block.acceleration_vertical).all()),
+        position=None if scenario is None else emulator.session.site.position,
     )

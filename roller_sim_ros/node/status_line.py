@@ -5,6 +5,7 @@ from __future__ import annotations
 from roller_sim_ros.meters import Mode
 from roller_sim_ros.node.report import RecordingReport, Report
 from roller_sim_ros.node.roller import Roller
+from roller_sim_ros.site import Position
 from roller_sim_ros.traces.ring import State
 
 
@@ -20,11 +21,19 @@ def status_line(report: Report) -> str:
         f"{exciter.frequency_hz:5.2f} Hz {exciter.amplitude_m * 1e3:5.3f} mm  "
         f"G {drive.shear_modulus_pa / 1e6:5.1f} MPa  p {drive.plastic_parameter_m * 1e3:5.3f} mm  "
         f"CMV {cmv}  RMV {rmv}  {mode.name.lower().replace('_', ' '):18}  "
-        f"{_pace(report)}"
+        f"{_where(drive.position)}{_pace(report)}"
     )
     if report.unsent:
         line += f", {report.unsent} messages not sent"
     return line + _recording(report.recording)
+
+
+def _where(position: Position | None) -> str:
+    if position is None:
+        return ""
+    if position.finished:
+        return "all driven  "
+    return f"pass {position.pass_number} {position.chainage_m:6.2f} m  "
 
 
 def _pace(report: Report) -> str:
