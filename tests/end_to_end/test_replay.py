@@ -215,39 +215,48 @@ CHANGED: dict[str, tuple[Callable[[Any], None], str, str]] = {
 }
 
 
-@pytest.mark.parametrize("topic", CHANGED)
-def test_one_changed_value_is_found(
-    topic: str, trace: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
-    change, field, value = CHANGED[topic]
+def changed(trace: Path, target: Path, topic: str) -> tuple[Path, int]:
+    """Write a trace with one value changed; return it and the first sample of that value's block."""
+    change, _, _ = CHANGED[topic]
+    wanted = 1 if topic == "soil" else 3
     count, sample = 0, -1
 
     def edit(_: int, message: TraceMessage) -> TraceMessage:
         nonlocal count, sample
-        wanted = 1 if topic == "soil" else 3
         if message.topic == "/truth" and count < wanted:
             sample = int(decode(message.data, message.type_name).sequence)
-        if message.topic != f"/{topic}":
-            return message
-        count += 1
-        if count != wanted:
+        count += message.topic == f"/{topic}"
+        if message.topic != f"/{topic}" or count != wanted:
             return message
         content = decode(message.data, message.type_name)
         change(content)
         return message._replace(data=encode(content, message.type_name))
 
-    path = edited(trace, tmp_path / "changed.mcap", edit)
-    code, text = told(capsys, path)
-    assert code == 1
-    assert text.startswith("not identical\n")
-    last = text.splitlines()[-1]
-    assert f"first differs: {topic}, sample " in last
-    assert f" {field}: recorded {value}, replayed " in last
+    return edited(trace, target, edit), sample
+
+
+@pytest.mark.parametrize("topic", CHANGED)
+def test_one_changed_value_is_found(topic: str, trace: Path, tmp_path: Path) -> None:
+    path, sample = changed(trace, tmp_path / "changed.mcap", topic)
     difference = replay(path).difference
     assert difference is not None
+    assert (difference.topic, difference.field, difference.recorded) == (topic, *CHANGED[topic][1:])
+    assert difference.replayed != difference.recorded
     assert 0 <= difference.sample - sample <= 16 + 5
     # It runs up: the first revolutions come at the floor's rate, 5 Hz.
     assert difference.sample // 16 * 16 / 3840.0 <= difference.time_s <= difference.sample / 640.0
+
+
+def test_the_command_says_where_it_differs(
+    trace: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    path, _ = changed(trace, tmp_path / "changed.mcap", "site/state")
+    code, text = told(capsys, path)
+    first, counted, last = text.splitlines()
+    assert (code, first) == (1, "not identical")
+    assert counted.startswith("384 samples, ")
+    assert last.startswith("first differs: site/state, sample 368 (block of ")
+    assert last.endswith(" pass_number: recorded 9, replayed 1")
 
 
 def test_another_input_is_another_run(trace: Path, tmp_path: Path) -> None:
