@@ -47,7 +47,8 @@ ROOT = Path(__file__).resolve().parents[2]
 PATIENCE_S = 60.0
 
 JOIN_S = 0.5
-"""After which the roller takes another step although nobody answered yet: the controller has not found it at first."""
+"""After which the roller takes another step although nobody answered yet, since at first it may not have found the
+controller; twice as long after each such step, so that a slow controller misses little."""
 
 RELAY = "controller"
 """Namespace in which the controller's commands are heard; `REMAPPED` are the arguments that make a node speak there."""
@@ -95,6 +96,7 @@ class LockStep:
         self, domain: int | None = None, namespace: str = "", patience_s: float = PATIENCE_S
     ) -> None:
         self._patience_s = patience_s
+        self._join_s = JOIN_S
         self._context = Context()
         rclpy.init(context=self._context, domain_id=domain)
         self._node = Node("lock_step", context=self._context, namespace=namespace)
@@ -102,6 +104,7 @@ class LockStep:
         self._executor.add_node(self._node)
         self._commands: list[Any] = []
         self._truth: dict[int, tuple[float, int]] = {}
+        self._truth_until = 0
         self._site: Any = None
         self._applied: set[int] = set()
         self._asked_ns = -1
@@ -156,7 +159,7 @@ class LockStep:
             revolutions = min(revolutions_per_step, most_revolutions - done)
             next_sample = self._advance(revolutions)
             done += revolutions
-            self._until(partial(self._told_until, next_sample), "site/state")
+            self._until(partial(self._told_until, next_sample), "site/state and truth")
             self._until_answered()
         self._within(lambda: not told or told[-1] in self._applied, JOIN_S)
         truth = [self._truth[index] for index in sorted(self._truth)]
@@ -180,6 +183,7 @@ class LockStep:
 
     def _on_truth(self, truth: Any) -> None:
         self._truth[truth.sequence // N] = (truth.rmv, truth.mode)
+        self._truth_until = truth.sequence + len(truth.vertical)
 
     def _arrived(self) -> bool:
         """Whether all is driven; driven by hand the roller stands at the lane's end."""
@@ -191,7 +195,8 @@ class LockStep:
         )
 
     def _told_until(self, sample: int) -> bool:
-        return self._site is not None and self._site.last_sample + 1 >= sample
+        site_until = 0 if self._site is None else self._site.last_sample + 1
+        return bool(site_until >= sample and self._truth_until >= sample)
 
     def _advance(self, revolutions: int) -> int:
         """Step, and return the index of the sample that comes next."""
@@ -212,7 +217,8 @@ class LockStep:
         if self._commands:
             self._until(answered, "the controller's answer")
         else:
-            self._within(answered, JOIN_S)
+            self._within(answered, self._join_s)
+            self._join_s = min(2.0 * self._join_s, self._patience_s)
 
     def _until(self, done: Callable[[], Any], what: str) -> None:
         """Take messages until something is so.
