@@ -28,7 +28,7 @@ setup(
     license=package.findtext("license"),
     python_requires=">=3.10",
     packages=find_packages(include=[NAME, f"{NAME}.*"]),
-    package_data={NAME: ["py.typed"]},
+    package_data={NAME: ["py.typed", "panel/page/*"]},
     data_files=[
         shared("", "package.xml"),
         shared("msg", "*.msg"),

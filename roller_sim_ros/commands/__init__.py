@@ -15,6 +15,7 @@ from roller_sim_ros.errors import RollerSimError
 
 COMMANDS = {
     "sim": "run the roller in real time as a ROS 2 node",
+    "panel": "show a roller that runs as a live page in a browser",
     "run": "run the roller without ROS, as fast as it goes",
     "figures": "redraw the figures of the paper",
     "sweep": "map what the roller settles on over a grid of parameters",

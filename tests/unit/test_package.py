@@ -43,6 +43,7 @@ ROS_PACKAGES = (
     "std_srvs",
 )
 ROS_COMMANDS = ("sim", "play")
+ROS_CLIENT = "roller_sim_ros.panel.client"
 
 # From the bottom up, as docs/architecture.md has it: a folder imports from itself and those before it.
 # session.block is the one exception: the samples that a session yields, a plain record, are what
@@ -76,6 +77,7 @@ LAYERS = (
     "node",
     "bench",
     "testing",
+    "panel",
     "commands",
 )
 
@@ -91,7 +93,8 @@ def modules() -> dict[str, Path]:
 
 def may_import_ros(name: str) -> bool:
     return name.startswith("roller_sim_ros.node") or name in {
-        f"roller_sim_ros.commands.{command}" for command in ROS_COMMANDS
+        ROS_CLIENT,
+        *(f"roller_sim_ros.commands.{command}" for command in ROS_COMMANDS),
     }
 
 
