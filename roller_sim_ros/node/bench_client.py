@@ -27,6 +27,13 @@ ANSWERS = 4.0
 """A meter is waited for this many times as long as it took at most, within the two bounds."""
 
 LOOK_S = 0.05
+LISTEN_S = 0.5
+
+
+def someone_there(domain: int) -> bool:
+    """Return whether a node is in a domain, as far as half a second tells."""
+    with BenchClient(domain) as client:
+        return bool(client.wait_for(client.others, lambda: True, LISTEN_S))
 
 
 class BenchClient:
@@ -55,6 +62,10 @@ class BenchClient:
         self._executor.shutdown()
         self._node.destroy_node()
         self._context.try_shutdown()
+
+    def others(self) -> list[str]:
+        """Return the names of all other nodes that are known yet."""
+        return [name for name in self._node.get_node_names() if name != CLIENT]
 
     def meter_topics(self) -> dict[str, str]:
         """Return {topic: type} of what others than roller and bench publish, as far as it is known yet."""

@@ -5,40 +5,26 @@ from __future__ import annotations
 import gc
 import math
 import time
-from collections.abc import Callable, Mapping
-from pathlib import Path
-from typing import Any
+from collections.abc import Mapping
 
 import numpy as np
 from rclpy.node import Node
-from rclpy.subscription import Subscription
 
 from roller_sim_ros.emulation import Emulator
 from roller_sim_ros.errors import RollerSimError
 from roller_sim_ros.node.beginning import Beginning
-from roller_sim_ros.node.clock_owner import ClockOwner
 from roller_sim_ros.node.inputs import Inputs, standing, upcoming
-from roller_sim_ros.node.interfaces import message_type
 from roller_sim_ros.node.lateness import Lateness
-from roller_sim_ros.node.outlet import Outlet
 from roller_sim_ros.node.pacing import Pacer
-from roller_sim_ros.node.qos import overridable, overrides_of, profile
 from roller_sim_ros.node.realtime import request_scheduling
-from roller_sim_ros.node.recording import Recording, receiver
 from roller_sim_ros.node.report import Drive, RecordingReport, Report, diagnostics
 from roller_sim_ros.node.run import Run
+from roller_sim_ros.node.station import Station
 from roller_sim_ros.node.warm_up import try_out, warm_up
 from roller_sim_ros.parameters import PARAMETERS, Configuration, ParameterError, Value
 from roller_sim_ros.scenario import Scenario
 from roller_sim_ros.session import Refusal
 from roller_sim_ros.wire import messages, topics
-
-CLOSE_S = 1.5
-"""How long the end of the node waits for the recording to be finished."""
-CLOSE_SIMULATED_S = 60.0
-"""The same in simulated time, which may have gone faster than the disk."""
-
-_COMMANDS = (topics.EXCITER_COMMAND, topics.CMD_VEL)
 
 
 class Roller:
@@ -63,29 +49,28 @@ class Roller:
         Whether time stands still where all that the scenario planned has been driven.
     last_report : Report or None
         The last one while the roller ran.
-    last_recording : RecordingReport or None
-        What became of the last recording that was closed.
     """
 
     def __init__(self, node: Node, beginning: Beginning) -> None:
         self.active = False
         self.stop_at_end = False
         self.last_report: Report | None = None
-        self.last_recording: RecordingReport | None = None
         self._node = node
         self._beginning = beginning
         self._configuration = beginning.configuration
         self._prepared: Configuration | None = None
-        self._commands: list[Subscription[Any]] = []
-        self._outlet: Outlet | None = None
-        self._recording: Recording | None = None
-        self._recordings = 0
         self._pacer: Pacer | None = None
-        self._clock: ClockOwner | None = None
         self._step_failure: Exception | None = None
         self._reported = (0.0, 0.0)
-        self._unsent = 0
         self.inputs = Inputs(self._warn, self._answer, self._watched_s)
+        self._station = Station(
+            node,
+            {
+                topics.EXCITER_COMMAND: self.inputs.take_exciter,
+                topics.CMD_VEL: self.inputs.take_travel,
+            },
+            self.now_ns,
+        )
 
     @property
     def configuration(self) -> Configuration:
@@ -99,6 +84,11 @@ class Roller:
                 if not name.startswith(_OF_THE_NODE)
             }
         )
+
+    @property
+    def last_recording(self) -> RecordingReport | None:
+        """What became of the last recording that was closed."""
+        return self._station.last_recording
 
     @property
     def running(self) -> bool:
@@ -151,18 +141,9 @@ class Roller:
         """
         self._beginning = self._beginning.with_parameters(self._configuration)
         configuration = self._configuration = self._beginning.configuration
-        pacing = configuration.pacing
-        simulated = pacing.simulated_time
-        now_ns = self.now_ns if simulated else None
         try:
             warm_up(self._beginning)
-            self._outlet = Outlet(self._node, pacing, now_ns or time.time_ns)
-            self._clock = ClockOwner(self._node, owns=topics.CLOCK.name in self._outlet.publishers)
-            for topic, take in zip(
-                _COMMANDS, (self.inputs.take_exciter, self.inputs.take_travel), strict=True
-            ):
-                self._subscribe(topic, take, now_ns)
-            self._open_recording(self._outlet)
+            self._station.open(self._beginning)
         except RollerSimError:
             self.release()
             raise
@@ -249,7 +230,7 @@ class Roller:
     def release(self) -> None:
         """Stop, and close everything."""
         self.stop()
-        self._close_recording()
+        self._station.close_recording()
         self._close_topics()
 
     def check(self, values: Mapping[str, Value]) -> Configuration:
@@ -289,26 +270,21 @@ class Roller:
         """Look after what goes on by itself: watchdogs, topics that are to be recorded, ``/clock``."""
         if not self.simulated_time:
             self.inputs.watch()
-        elif self._outlet is not None and not self.playing:
-            # Those who come while time stands still need to know it.
-            self._outlet.announce(messages.clock(self.now_ns()))
-        if self._recording is not None:
-            self._recording.look_for_topics()
+        elif not self.playing:
+            self._station.announce_clock()
+        self._station.look_for_topics()
 
     def report(self) -> Report:
         """Return what there is to tell since the last call, and send it as diagnostics."""
-        pacer, recording = self._pacer, self._recording
+        pacer, station = self._pacer, self._station
         factor = math.nan
         if pacer is not None:
             (before_s, then_s), (after_s, now_s) = self._reported, pacer.run.progress
             self._reported = (after_s, now_s)
             if now_s > then_s:
                 factor = (after_s - before_s) / (now_s - then_s)
-        if self._clock is not None:
-            self._clock.look()
-        unsent = self._outlet.unsent if self._outlet else 0
-        if unsent > self._unsent:
-            self._node.get_logger().error(f"{unsent - self._unsent} messages could not be sent")
+        station.look_for_rivals()
+        unsent, recently_unsent = station.unsent()
         lateness = pacer.lateness if pacer else Lateness()
         exciter, travel = self.inputs.exciter, self.inputs.travel
         report = Report(
@@ -316,14 +292,14 @@ class Roller:
             drive=_drive(pacer.run.emulator, self._beginning.scenario) if pacer else None,
             paused=pacer is not None and not pacer.playing,
             simulated_time=self.simulated_time,
-            rivals=self._clock.rivals if self._clock else (),
+            rivals=station.rivals,
             recent=lateness.recent(),
             total=lateness.total(),
             unsent=unsent,
-            recently_unsent=unsent - self._unsent,
+            recently_unsent=recently_unsent,
             real_time_factor=factor,
             realtime=tuple(pacer.realtime) if pacer else (),
-            recording=recording.report() if recording else None,
+            recording=station.recording_report(),
             refused=exciter.refused,
             refusal=exciter.reason,
             refusing=exciter.refusing,
@@ -331,28 +307,22 @@ class Roller:
             travel_refusal=travel.reason,
             travel_refusing=travel.refusing,
         )
-        self._unsent = unsent
         if report.drive is not None:
             self.last_report = report
-        if self._outlet is not None:
-            self._outlet.send([messages.diagnostic_array(diagnostics(report), self.now_ns())])
+        station.send(messages.diagnostic_array(diagnostics(report), self.now_ns()))
         return report
 
     def _begin(self, emulator: Emulator, *, paused: bool) -> None:
-        assert self._outlet is not None  # since prepared
+        outlet = self._station.outlet
+        assert outlet is not None  # since prepared
         pacing = self._configuration.pacing
-        if self.simulated_time and self._recording is not None and self._recording.used:
-            # Time jumps back, which a trace does not: every run has its own.
-            self._close_recording()
-            self._open_recording(self._outlet)
-        if self._recording is not None:
-            self._recording.used = True
+        self._station.begin_run(self._beginning)
         run = Run(
             emulator,
             pacing.samples_per_message,
-            self._outlet.send,
-            self._outlet.imu_wanted,
-            clock=topics.CLOCK.name in self._outlet.publishers,
+            outlet.send,
+            outlet.imu_wanted,
+            clock=self._station.publishes_clock,
         )
         speed = pacing.speed if self.simulated_time else 1.0
         pacer = self._pacer = Pacer(run, speed, pacing.realtime_priority)
@@ -377,77 +347,16 @@ class Roller:
         else:
             self._node.get_logger().info("the scenario has been driven; the roller stands")
 
-    def _subscribe(
-        self,
-        topic: topics.Topic,
-        take: Callable[[bytes], None],
-        now_ns: Callable[[], int] | None,
-    ) -> None:
-        name = self._node.resolve_topic_name(topic.name)
-
-        def put(data: bytes, received_ns: int, published_ns: int) -> None:
-            if self._recording is not None:
-                self._recording.put_command(name, data, received_ns, published_ns)
-            take(data)
-
-        with overrides_of(topic):
-            self._commands.append(
-                self._node.create_subscription(
-                    message_type(topic.type_name),
-                    topic.name,
-                    receiver(put, now_ns),
-                    profile(topic.qos(self._configuration.pacing)),
-                    raw=True,
-                    qos_overriding_options=overridable(),
-                )
-            )
-
-    def _open_recording(self, outlet: Outlet) -> None:
-        """Begin the recording that the parameters ask for, or go on with the one that is open."""
-        wanted = self._configuration.recording
-        if self._recording is not None and self._recording.parameters == wanted:
-            self._recording.attach(outlet)
-            return
-        self._close_recording()
-        if wanted.path:
-            start_ns = self.now_ns()
-            self._recording = Recording(
-                self._node,
-                outlet,
-                dict(zip((item.topic_name for item in self._commands), _COMMANDS, strict=True)),
-                self._configuration,
-                self._beginning.metadata(start_ns),
-                _numbered(wanted.path, self._recordings),
-                self.now_ns if self.simulated_time else None,
-            )
-            self._recordings += self.simulated_time
-
-    def _close_recording(self) -> None:
-        if self._recording is not None:
-            recording, self._recording = self._recording, None
-            if self._outlet is not None:
-                self._outlet.trace = None
-            recording.close(CLOSE_SIMULATED_S if self.simulated_time else CLOSE_S)
-            self.last_recording = recording.report()
-
     def _close_topics(self) -> None:
         self._prepared = None
-        for subscription in self._commands:
-            self._node.destroy_subscription(subscription)
-        self._commands.clear()
-        if self._outlet is not None:
-            self._outlet.destroy()
-            self._outlet = None
-            self._unsent = 0
+        self._station.close_topics()
 
     def _warn(self, line: str) -> None:
         self._node.get_logger().warning(line)
 
     def _answer(self, code: Refusal, reason: str) -> None:
         """Let ``exciter/state`` of a roller that is not active say why a command was refused."""
-        if self._outlet is not None:
-            exciter = self._configuration.exciter
-            self._outlet.send([standing(exciter, self.now_ns(), code, reason)])
+        self._station.send(standing(self._configuration.exciter, self.now_ns(), code, reason))
 
     def _watched_s(self) -> float:
         """Return the time by which the watchdogs count."""
@@ -464,14 +373,6 @@ def _structure(configuration: Configuration) -> dict[str, Value]:
     """Return the parameters that cannot change while the roller runs."""
     flat = configuration.flat()
     return {name: value for name, value in flat.items() if not PARAMETERS[name][0].live}
-
-
-def _numbered(path: str, before: int) -> str:
-    """Return the file of a run: as asked for, and with a number for those after the first."""
-    if not before:
-        return path
-    first = Path(path)
-    return str(first.with_name(f"{first.stem}-{before + 1}{first.suffix}"))
 
 
 def _drive(emulator: Emulator, scenario: Scenario | None) -> Drive | None:

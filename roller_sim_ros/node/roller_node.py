@@ -16,6 +16,7 @@ from rclpy.timer import Timer
 from roller_sim_ros.errors import RollerSimError
 from roller_sim_ros.node import parameters
 from roller_sim_ros.node.fault_services import FaultServices
+from roller_sim_ros.node.namesake import Namesake
 from roller_sim_ros.node.parameter_service import CheckedParameterService
 from roller_sim_ros.node.report import Report
 from roller_sim_ros.node.roller import Roller
@@ -76,6 +77,7 @@ class RollerNode(LifecycleNode):
         self._tick_timer: Timer | None = None
         self._next_report = 0.0
         self._echoing = False
+        self._namesake = Namesake(self)
         self.add_on_set_parameters_callback(self._on_set_parameters)
         self.simulation = SimulationServices(self, self.roller, stopping)
         self._faults = FaultServices(self, self.roller)
@@ -179,6 +181,7 @@ class RollerNode(LifecycleNode):
         if now >= self._next_report:
             self._next_report = now + REPORT_S - TICK_S / 2
             self._show_current()
+            self._namesake.look()
             report = self.roller.report()
             if self.on_report is not None:
                 self.on_report(report)
