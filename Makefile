@@ -18,7 +18,7 @@ ifdef ROS_DISTRO
 unexport LD_LIBRARY_PATH
 endif
 
-.PHONY: setup sim test check bench fuzz soak docs clean
+.PHONY: setup sim test check bench fuzz soak docs site clean
 
 setup:
 	@tools/setup.sh
@@ -41,10 +41,11 @@ else
 endif
 
 check: setup
-	@echo "check: ruff, mypy --strict"
+	@echo "check: ruff, mypy --strict, pages"
 	@$(VENV)/ruff check --quiet .
 	@$(VENV)/ruff format --check --quiet .
 	@$(VENV)/mypy --no-error-summary
+	@NO_MKDOCS_2_WARNING=1 $(VENV)/mkdocs build --quiet
 
 bench: setup
 	@exec $(VENV)/python -m benchmarks $(ARGS)
@@ -63,6 +64,10 @@ docs: setup
 	@$(VENV)/python -m tools.generate_schema
 	@$(VENV)/python -m tools.generate_layouts
 	@exec $(VENV)/python -m tools.generate_picture
+
+# The pages of docs/ as a site in build/site; a dead link or a page left out is an error. `check` builds it, too.
+site: setup
+	@NO_MKDOCS_2_WARNING=1 $(VENV)/mkdocs build --quiet && echo "build/site/index.html"
 
 clean:
 	rm -rf .venv build install log dist roller_sim_ros.egg-info .mypy_cache .pytest_cache .ruff_cache .hypothesis
