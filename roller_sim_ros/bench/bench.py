@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 import sys
 from collections.abc import Callable
 from contextlib import ExitStack, suppress
@@ -21,9 +20,6 @@ PATIENCE_S = 60.0
 
 BUILT_IN = "meter"
 """Topic of the roller's own meter, judged where there is no other."""
-
-REVOLUTION = 128
-"""Samples per message in lock step: a revolution."""
 
 
 class BenchError(RollerSimError):
@@ -50,6 +46,8 @@ class Bench:
         Simulated over real time, with ``sim``.
     domain : int
         ROS domain.
+    samples_per_message : int or None
+        Size of the roller's blocks; None: as the scenario has it.
     """
 
     scenario: str
@@ -59,6 +57,7 @@ class Bench:
     clock: str
     speed: float
     domain: int
+    samples_per_message: int | None = None
 
 
 @dataclass(frozen=True)
@@ -90,8 +89,6 @@ def run_bench(bench: Bench) -> Ran:
     """
     from roller_sim_ros.node.bench_client import BenchClient
 
-    # Before rclpy reads it: what is on this machine is for it alone.
-    os.environ.setdefault("ROS_AUTOMATIC_DISCOVERY_RANGE", "LOCALHOST")
     trace = _prepared(bench.folder)
     with ExitStack() as stack:
         client = stack.enter_context(BenchClient(bench.domain))
@@ -134,15 +131,15 @@ def _roller_command(bench: Bench, topic: str, trace: Path) -> list[str]:
     if bench.meter:
         command += ["--record-topic", topic]
     if bench.clock == "lock-step":
-        return [
-            *command,
-            "--lock-step",
-            "--ros-args",
-            "-p",
-            f"pacing.samples_per_message:={REVOLUTION}",
-        ]
-    command += ["--clock", bench.clock]
-    return [*command, "--speed", str(bench.speed)] if bench.clock == "sim" else command
+        command += ["--lock-step"]
+    else:
+        command += ["--clock", bench.clock]
+    if bench.clock == "sim":
+        command += ["--speed", str(bench.speed)]
+    if bench.samples_per_message is not None:
+        samples = f"pacing.samples_per_message:={bench.samples_per_message}"
+        command += ["--ros-args", "-p", samples]
+    return command
 
 
 def _topic(bench: Bench, client: BenchClient, meter: Process | None) -> tuple[str, str]:

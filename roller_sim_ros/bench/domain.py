@@ -5,7 +5,7 @@ from __future__ import annotations
 import fcntl
 import os
 import tempfile
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
@@ -16,8 +16,13 @@ DOMAINS = range(10, 100)
 
 
 @contextmanager
-def own_domain() -> Iterator[int]:
+def own_domain(occupied: Callable[[int], bool] = lambda _: False) -> Iterator[int]:
     """Yield the number of a domain that no other bench or test on this machine has at the same time.
+
+    Parameters
+    ----------
+    occupied : callable
+        Whether someone is in a domain who does not take part in this.
 
     Raises
     ------
@@ -36,6 +41,9 @@ def own_domain() -> Iterator[int]:
         try:
             fcntl.flock(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
         except OSError:
+            os.close(descriptor)
+            continue
+        if occupied(number):
             os.close(descriptor)
             continue
         try:

@@ -13,6 +13,7 @@ from pathlib import Path
 from roller_sim_ros.commands.numbers import positive
 from roller_sim_ros.commands.score import add_score_arguments, judge
 from roller_sim_ros.errors import RollerSimError
+from roller_sim_ros.parameters import SAMPLES_PER_REVOLUTION
 
 DESCRIPTION = """\
 Run a scenario with a compaction meter beside it, and judge the meter: the roller and the meter run as processes
@@ -32,6 +33,8 @@ examples:
 The folder of --out holds trace.mcap, roller.log, meter.log, score.json and score.xml. The exit code is 0 when no row
 failed and the meter ran to the end, 1 when not, 2 when there is nothing to judge.
 """
+
+BLOCKS = "pacing.samples_per_message"
 
 CLOCKS = ("lock-step", "sim", "real")
 
@@ -69,18 +72,22 @@ def _bench(arguments: argparse.Namespace) -> int:
     # What takes long to import, or needs ROS 2, comes after --help.
     from roller_sim_ros.bench.bench import Bench, run_bench
     from roller_sim_ros.bench.domain import own_domain
+    from roller_sim_ros.node.bench_client import someone_there
     from roller_sim_ros.scenario import read_scenario
     from roller_sim_ros.scenario.shipped import scenario_path
     from roller_sim_ros.score.limits import read_limits
 
     # What is wrong in a file is told before anything is started.
     path = scenario_path(arguments.scenario)
-    read_scenario(path)
+    scenario = read_scenario(path)
     if arguments.limits is not None:
         read_limits(arguments.limits)
+    # What is on this machine is for it alone.
+    os.environ.setdefault("ROS_AUTOMATIC_DISCOVERY_RANGE", "LOCALHOST")
     folder: Path = arguments.out or Path("bench") / path.stem
     given = os.environ.get("ROS_DOMAIN_ID", "") if arguments.domain is None else arguments.domain
-    domain = own_domain() if given == "" else nullcontext(_domain(str(given)))
+    domain = own_domain(someone_there) if given == "" else nullcontext(_domain(str(given)))
+    as_said = arguments.clock == "real" or BLOCKS in scenario.parameters
     with domain as number:
         ran = run_bench(
             Bench(
@@ -91,6 +98,8 @@ def _bench(arguments: argparse.Namespace) -> int:
                 clock=arguments.clock,
                 speed=arguments.speed,
                 domain=number,
+                # Time that is not the wall clock's goes faster in messages of a revolution.
+                samples_per_message=None if as_said else SAMPLES_PER_REVOLUTION,
             )
         )
     arguments.topic = ran.topic
