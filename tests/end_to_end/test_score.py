@@ -14,8 +14,9 @@ import pytest
 
 from roller_sim_ros import commands
 from roller_sim_ros.emulation import Emulator
+from roller_sim_ros.faults import FAULTS
 from roller_sim_ros.parameters import Pacing
-from roller_sim_ros.scenario import read_scenario, start_of
+from roller_sim_ros.scenario import Scenario, parse_scenario, read_scenario, start_of
 from roller_sim_ros.scenario.shipped import shipped_scenarios
 from roller_sim_ros.sensors import Choice
 from roller_sim_ros.traces.registration import register, register_all
@@ -38,9 +39,13 @@ def wrong_cmv() -> Callable[..., float]:
     return module.wrong_cmv
 
 
-def conduct(name: str, path: Path, *sensors: Choice) -> Path:
+def shipped(name: str) -> Scenario:
+    return read_scenario(shipped_scenarios()[name])
+
+
+def conduct(scenario: Scenario, path: Path, *sensors: Choice) -> Path:
     """Record a scenario, with the wrong meter's values on /wrong_cmv, each a revolution after its samples."""
-    start = start_of(read_scenario(shipped_scenarios()[name]))
+    start = start_of(scenario)
     if sensors:
         start = start._replace(sensors=sensors)
     emulator = Emulator(start_ns=START_NS, **start._asdict())
@@ -69,19 +74,23 @@ def conduct(name: str, path: Path, *sensors: Choice) -> Path:
 
 @pytest.fixture(scope="module")
 def campaign(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    return conduct("sensor_failure_campaign", tmp_path_factory.mktemp("score") / "campaign.mcap")
+    return conduct(
+        shipped("sensor_failure_campaign"), tmp_path_factory.mktemp("score") / "campaign.mcap"
+    )
 
 
 @pytest.fixture(scope="module")
 def stiffening(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    return conduct("soft_to_stiff", tmp_path_factory.mktemp("score") / "stiffening.mcap")
+    return conduct(shipped("soft_to_stiff"), tmp_path_factory.mktemp("score") / "stiffening.mcap")
 
 
 def test_it_passes_with_a_sensor_of_a_fixed_rate(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     sheet = {"sample_rate_hz": 4000.0, "bandwidth_hz": 1500.0, "clock_skew_ppm": 100.0}
-    trace = conduct("soft_to_stiff", tmp_path / "trace.mcap", Choice("accelerometer", sheet))
+    trace = conduct(
+        shipped("soft_to_stiff"), tmp_path / "trace.mcap", Choice("accelerometer", sheet)
+    )
     for topic in ("meter", "cmv"):
         code, report = judged(capsys, trace, topic)
         assert (code, failed(report)) == (0, [])
@@ -107,7 +116,7 @@ def failed(report: dict[str, Any]) -> list[str]:
 def test_the_built_in_meter_passes_every_scenario(
     name: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    trace = conduct(name, tmp_path / "trace.mcap")
+    trace = conduct(shipped(name), tmp_path / "trace.mcap")
     for topic in ("meter", "cmv"):
         code, report = judged(capsys, trace, topic)
         assert (code, failed(report)) == (0, [])
@@ -139,6 +148,33 @@ def test_it_passes_under_faults_and_in_double_jump_too(
     assert rows["missing_alarms"]["verdict"] == rows["wrong_alarms"]["verdict"] == "pass"
     assert rows["rms_in_double_jump"]["found"] < 1e-3
     assert abs(rows["latency"]["found"]) < 1e-3
+
+
+def test_it_does_what_every_fault_of_the_catalogue_expects_while_the_ground_changes(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    windows = "".join(
+        f"  - {{id: {name}, from_s: {2 * number + 2}, to_s: {2 * number + 3}}}\n"
+        for number, name in enumerate(FAULTS)
+    )
+    text = f"""
+lane: {{length_m: 40}}
+travel: {{speed_m_s: 1.0}}
+ground:
+  shear_modulus_mpa: 30
+  features: [{{kind: gradient, to_m: 40, shear_modulus_mpa: 42}}]
+exciter: {{frequency_hz: 28, amplitude_mm: 1.4}}
+sensors: [{{name: mems_50g}}, {{name: tacho}}, {{name: odometry}}, {{name: gnss}}]
+faults:
+{windows}
+"""
+    trace = conduct(parse_scenario(text, Path("every_fault.yaml")), tmp_path / "trace.mcap")
+    for topic in ("meter", "cmv"):
+        code, report = judged(capsys, trace, topic)
+        assert (code, failed(report)) == (0, [])
+        faults = [row for row in report["rows"] if row["name"].startswith("fault/")]
+        assert [row["name"].rpartition("/")[2] for row in faults] == list(FAULTS)
+        assert {row["verdict"] for row in faults} == {"pass"}
 
 
 def test_the_wrong_meter_fails_in_the_rows_named_for_it(
