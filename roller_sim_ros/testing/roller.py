@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import os
+import signal
 import sys
 from collections.abc import Callable
-from contextlib import ExitStack
+from contextlib import ExitStack, suppress
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -115,6 +116,13 @@ class Roller:
         self._stack.callback(process.end)
         self._processes.append(process)
         return process
+
+    def kill(self, process: Process) -> None:
+        """End a program under test as a crash would: at once, with all that it started."""
+        self._processes.remove(process)
+        with suppress(ProcessLookupError):
+            os.killpg(process.pid, signal.SIGKILL)
+        process.wait()
 
     def step(self, *, revolutions: int = 0, seconds: float = 0.0, samples: int = 0) -> int:
         """Go on by revolutions, seconds or samples; what was published on the way has come then.

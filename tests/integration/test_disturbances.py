@@ -1,0 +1,129 @@
+"""What happens on a network: clients die, readers do not read, a node dies, there are two of one name."""
+
+from __future__ import annotations
+
+import signal
+import sys
+from itertools import pairwise
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import rclpy
+from rclpy.context import Context
+from rclpy.node import Node
+from rclpy.qos import QoSProfile, ReliabilityPolicy
+from rclpy.serialization import deserialize_message
+from std_msgs.msg import Float64
+
+from roller_sim_ros.msg import DrumAcceleration
+from tests.integration.harness import Sim, recorded, roller_sim
+
+if TYPE_CHECKING:
+    # pytest wants to be the first to import it.
+    from roller_sim_ros.testing import Roller
+
+pytest_plugins = ["roller_sim_ros.testing"]
+
+METER = (sys.executable, str(Path(__file__).resolve().parents[2] / "examples" / "meter_client.py"))
+
+
+def is_whole(roller: Roller) -> bool:
+    """Tell whether every sample came since the start."""
+    blocks = roller.received("drum/acceleration")
+    return blocks[0].sequence == 0 and all(
+        after.sequence == before.sequence + len(before.vertical)
+        for before, after in pairwise(blocks)
+    )
+
+
+def test_client_that_is_killed_and_started_again(roller: Roller) -> None:
+    roller.listen("my_cmv", Float64)
+    roller.step(seconds=3.0)
+    for number in (1, 2):
+        before = len(roller.received("my_cmv"))
+        meter = roller.start(f"meter_{number}", *METER)
+        # What comes before it is there it misses.
+        while len(roller.received("my_cmv")) < before + 5:
+            roller.step(revolutions=1)
+        roller.kill(meter)
+        # More than any queue holds, and nobody waits for who is gone.
+        roller.step(revolutions=60)
+    assert is_whole(roller)
+
+
+def test_reader_that_does_not_read_holds_nobody_up(roller: Roller) -> None:
+    context = Context()
+    rclpy.init(context=context, domain_id=roller.domain)
+    lazy = Node("lazy", context=context)
+    try:
+        readers = [
+            lazy.create_subscription(
+                DrumAcceleration,
+                "drum/acceleration",
+                print,
+                QoSProfile(depth=depth, reliability=reliability),
+                raw=True,
+            )
+            for depth, reliability in (
+                (5, ReliabilityPolicy.BEST_EFFORT),
+                (5, ReliabilityPolicy.RELIABLE),
+            )
+        ]
+        roller.wait_for(lambda: roller.node.count_subscribers("drum/acceleration") == 3, "readers")
+        end = roller.step(revolutions=150)
+        assert is_whole(roller)
+        for reader in readers:
+            with reader.handle:
+                taken = []
+                while (got := reader.handle.take_message(DrumAcceleration, True)) is not None:
+                    taken.append(deserialize_message(got[0], DrumAcceleration))
+            # What was dropped shows in the index of the samples.
+            assert 0 < len(taken) <= 5
+            assert taken[0].sequence > 0
+            assert taken[-1].sequence < end
+    finally:
+        lazy.destroy_node()
+        context.try_shutdown()
+
+
+def test_node_that_is_killed_while_it_records_and_started_again(start, client, tmp_path) -> None:
+    blocks = client.listen("drum/acceleration", DrumAcceleration)
+    bag = str(tmp_path / "trace.mcap")
+    sim = start("--record", bag)
+    client.spin_until(lambda: len(blocks) > 100)
+    sim.process.send_signal(signal.SIGKILL)
+    sim.process.wait()
+    heard = len(blocks)
+    # Its trace is not overwritten.
+    refused = start("--record", bag)
+    assert refused.wait() == 1
+    assert any("is not overwritten" in line for line in refused.complaints)
+    sim = start("--record", str(tmp_path / "other.mcap"))
+    client.spin_until(lambda: len(blocks) > heard + 100)
+    # A client that was there before is there still, and sees that the roller begins anew.
+    again = [block.sequence for block in blocks[heard:]]
+    assert min(again) < blocks[heard - 1].sequence
+    assert sim.end() == 0
+    # The recording's process finished the trace of the dead node by itself.
+    assert "is whole" in roller_sim("recover", bag)
+    assert recorded(Path(bag), "/drum/acceleration")[0].sequence == 0
+
+
+def test_two_nodes_of_one_name_go_on_and_say_so(start, client) -> None:
+    blocks = client.listen("drum/acceleration", DrumAcceleration)
+
+    def warned(sim: Sim) -> bool:
+        return any("another node is called /roller_sim, too" in it for it in sim.complaints)
+
+    first, second = start("--shear-modulus-mpa", "35"), start("--shear-modulus-mpa", "80")
+    client.spin_until(lambda: warned(first) and warned(second))
+    heard = len(blocks)
+    client.spin_until(lambda: len(blocks) > heard + 200)
+    assert first.end() == 0
+    heard = len(blocks)
+    client.spin_until(lambda: len(blocks) > heard + 100)
+    alone = [block.sequence for block in blocks[-50:]]
+    assert all(after > before for before, after in pairwise(alone))
+    assert second.end() == 0
+    for sim in (first, second):
+        assert sum("another node" in line for line in sim.complaints) == 1
