@@ -129,13 +129,15 @@ class SimulationServices:
                 f"revolutions {revolutions}: must be at most {most} at a time",
             )
         going_on = self._going_on(run)
-        if revolutions:
-            self._drive(run, lambda: run.step(revolutions * SAMPLES_PER_REVOLUTION, going_on))
-        else:
-            self._drive(run, lambda: run.step_for(seconds, going_on))
-        response.next_sample = run.next_sample
-        second, nanosecond = divmod(run.time_ns, 10**9)
-        response.stamp = Time(sec=second, nanosec=nanosecond)
+        try:
+            if revolutions:
+                self._drive(run, lambda: run.step(revolutions * SAMPLES_PER_REVOLUTION, going_on))
+            else:
+                self._drive(run, lambda: run.step_for(seconds, going_on))
+        finally:
+            response.next_sample = run.next_sample
+            second, nanosecond = divmod(run.time_ns, 10**9)
+            response.stamp = Time(sec=second, nanosec=nanosecond)
 
     def _reset(self, request: Any, _response: Any) -> None:
         time_and_state = ResetSimulation.Request.SCOPE_TIME | ResetSimulation.Request.SCOPE_STATE

@@ -281,6 +281,21 @@ def test_quitting_ends_the_process(start, client, tmp_path: Path):
     assert end(recorded(bag, "/truth")[-1]) == 256
 
 
+def test_signal_cuts_a_long_step_short(start, client, tmp_path: Path):
+    bag = tmp_path / "trace.mcap"
+    sim = start("--lock-step", "--record", str(bag))
+    blocks = client.listen("truth", DrumSoilState)
+    service = client.node.create_client(Advance, "advance")
+    client.spin_until(service.service_is_ready)
+    service.call_async(Advance.Request(seconds=3600.0))
+    client.spin_until(lambda: len(blocks) > 100)
+    assert sim.end() == 0
+    assert "0 dropped" in sim.said.splitlines()[-1]
+    in_bag = recorded(bag, "/truth")
+    assert len(in_bag) >= len(blocks)
+    assert [block.sequence for block in in_bag] == [16 * k for k in range(len(in_bag))]
+
+
 def test_exit_at_end_stops_with_the_sample_at_which_all_is_driven(start, client, short):
     sim = start("--lock-step", "--exit-at-end", "--scenario", str(short))
     response = client.advance(seconds=60.0)
