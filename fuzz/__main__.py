@@ -1,4 +1,4 @@
-"""`python -m fuzz [--items N] [--coverage-guided SECONDS] [--write]`."""
+"""`python -m fuzz [--items N] [--dds N] [--coverage-guided SECONDS] [--write]`."""
 
 from __future__ import annotations
 
@@ -32,16 +32,25 @@ def main() -> int:
     chosen = targets()
     weight = sum(chosen[name].share for name in arguments.names)
     results: dict[str, Result] = {}
+    says = {name: target.says for name, target in chosen.items()}
+
+    def tell(result: Result) -> None:
+        faulthandler.dump_traceback_later(HANG_S, exit=True)
+        print(f"{name:16} {result.items:7} items, {result.accepted:6} accepted", flush=True)
+
     for name in arguments.names:
         count = round(arguments.items * chosen[name].share / weight)
-
-        def tell(result: Result, name: str = name) -> None:
-            faulthandler.dump_traceback_later(HANG_S, exit=True)
-            print(f"{name:16} {result.items:7} items, {result.accepted:6} accepted", flush=True)
-
         results[name] = run(chosen[name], count, arguments.seed, tell)
+    if arguments.dds:
+        from fuzz.dds import hostile_client, target
+
+        name = "over DDS"
+        with hostile_client() as client:
+            hostile = target(client)
+            says[name] = hostile.says
+            results[name] = run(hostile, arguments.dds, arguments.seed, tell, shrink=False)
     faulthandler.cancel_dump_traceback_later()
-    table = _table(results)
+    table = _table(results, says)
     guided = ""
     if arguments.coverage_guided:
         guided = "\n".join(_guided(name, arguments.coverage_guided) for name in READINGS)
@@ -62,6 +71,13 @@ def _arguments() -> argparse.Namespace:
         "names", nargs="*", default=list(targets()), help="targets; all by default", metavar="NAME"
     )
     parser.add_argument("--items", type=int, default=100_000, help="of all (default %(default)d)")
+    parser.add_argument(
+        "--dds",
+        type=int,
+        default=0,
+        metavar="N",
+        help="items to a real node over DDS, beside those",
+    )
     parser.add_argument("--seed", type=int, default=1, help="the same one feeds the same items")
     parser.add_argument(
         "--coverage-guided",
@@ -80,15 +96,14 @@ def _arguments() -> argparse.Namespace:
     return arguments
 
 
-def _table(results: dict[str, Result]) -> str:
+def _table(results: dict[str, Result], says: dict[str, str]) -> str:
     rows = [
         "| what | items | accepted | refused | slowest sequence | time |",
         "|---|---|---|---|---|---|",
     ]
     for name, it in results.items():
-        says = targets()[name].says
         rows.append(
-            f"| {says} | {it.items} | {it.accepted} | {it.items - it.accepted} | {it.slowest_s:.2f} s "
+            f"| {says[name]} | {it.items} | {it.accepted} | {it.items - it.accepted} | {it.slowest_s:.2f} s "
             f"| {it.seconds:.0f} s |"
         )
     total = sum(it.items for it in results.values())
