@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import hashlib
+import json
 import re
 import tempfile
 from collections.abc import Callable, Iterable, Iterator, Sequence
@@ -12,18 +14,21 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+import yaml
 from hypothesis import strategies as st
 from rosbags.serde import SerdeError
 
 from fuzz import items
 from fuzz.items import Change, Clearing, Command, Injection, Travel
 from roller_sim_ros.analysis.analyse import analyse
-from roller_sim_ros.emulation import Emulator
+from roller_sim_ros.emulation import Emulator, snapshot
 from roller_sim_ros.errors import RollerSimError
 from roller_sim_ros.faults import Span
 from roller_sim_ros.parameters import SAMPLES_PER_REVOLUTION, Configuration
 from roller_sim_ros.parameters.file import read_parameters
+from roller_sim_ros.parameters.quantity import declared
 from roller_sim_ros.scenario import parse_scenario, start_of
+from roller_sim_ros.score.limits import Limits, read_limits
 from roller_sim_ros.sensors import Choice
 from roller_sim_ros.traces.metadata import run_metadata
 from roller_sim_ros.traces.reader import TraceReader
@@ -189,6 +194,17 @@ def feed_bag(data: bytes) -> bool:
         return _accepts(read, str(path))
 
 
+def feed_limits(text: str) -> bool:
+    """Read limits for a verdict."""
+    with _file(text.encode("utf-8", "surrogatepass")) as path:
+        return _accepts(lambda: read_limits(path), str(path))
+
+
+def feed_state(data: bytes) -> bool:
+    """Restore a saved state."""
+    return _accepts(lambda: snapshot.restore(data), "state")
+
+
 @contextmanager
 def _file(data: bytes) -> Iterator[Path]:
     """Yield a file of some bytes in a folder of its own."""
@@ -237,6 +253,56 @@ def odd_traces(draw: st.DrawFn) -> bytes:
     return written(some)
 
 
+@cache
+def _state() -> tuple[bytes, bytes, int]:
+    """Return header, body and length of the body's text of a saved state."""
+    emulator = Emulator(Configuration(), start_ns=0, sensors=[Choice(it) for it in SENSORS])
+    emulator.inject("spike")
+    emulator.advance(SAMPLES_PER_REVOLUTION)
+    data = snapshot.save(emulator)
+    end = data.index(b"\n", len(snapshot.MAGIC)) + 1
+    return data[:end], data[end:], json.loads(data[len(snapshot.MAGIC) : end])["text_bytes"]
+
+
+@st.composite
+def odd_states(draw: st.DrawFn) -> bytes:
+    """Draw a saved state that is damaged, or one that was made up: its checksum is right."""
+    header, body, text_bytes = _state()
+    if draw(st.integers(0, 3)) == 0:
+        return draw(items.broken(header + body))
+    text = body[:text_bytes]
+    if draw(st.booleans()):
+        text = draw(items.broken(text))
+    else:
+        nodes = json.loads(text)
+        for _ in range(draw(st.integers(1, 4))):
+            at = draw(st.integers(0, len(nodes) - 1))
+            act = draw(st.integers(0, 2))
+            if act == 0:
+                nodes[at] = nodes[draw(st.integers(0, len(nodes) - 1))]
+            elif act == 1:
+                nodes[at] = [nodes[at][0], *draw(st.lists(items.scalars | items.trees, max_size=3))]
+            else:
+                part = draw(st.integers(0, len(nodes[at]) - 1))
+                nodes[at] = [*nodes[at][:part], draw(items.trees), *nodes[at][part + 1 :]]
+        text = json.dumps(nodes).encode()
+    body = text + body[text_bytes:]
+    about = {
+        **json.loads(header[len(snapshot.MAGIC) :]),
+        "text_bytes": len(text),
+        "bytes": len(body),
+        "sha256": hashlib.sha256(body).hexdigest(),
+    }
+    return snapshot.MAGIC + json.dumps(about).encode() + b"\n" + body
+
+
+limit_texts = st.text(max_size=40) | st.dictionaries(
+    st.sampled_from([name for name, _, _ in declared(Limits)]) | items.texts,
+    items.trees,
+    max_size=3,
+).map(lambda tree: yaml.safe_dump(tree, allow_unicode=True))
+
+
 def _several(one: st.SearchStrategy[Any], most: int) -> st.SearchStrategy[Sequence[Any]]:
     return st.lists(one, min_size=1, max_size=most)
 
@@ -283,7 +349,19 @@ def targets() -> dict[str, Target]:
             "texts read as scenarios",
             _several(items.scenario_texts, 3),
             _each(feed_scenario),
-            0.2,
+            0.14,
+        ),
+        "limits": Target(
+            "texts read as limits of a verdict",
+            _several(limit_texts, 5),
+            _each(feed_limits),
+            0.03,
+        ),
+        "states": Target(
+            "damaged and made-up states to be restored",
+            _several(odd_states(), 1),
+            _each(feed_state),
+            0.03,
         ),
         "command bytes": Target(
             "bytes that came as an exciter command",
