@@ -202,7 +202,7 @@ def feed_limits(text: str) -> bool:
 
 def feed_state(data: bytes) -> bool:
     """Restore a saved state."""
-    return _accepts(lambda: snapshot.restore(data), "state")
+    return _accepts(lambda: snapshot.restore(data), "state", "restored")
 
 
 @contextmanager
