@@ -124,6 +124,7 @@ states = st.builds(
     SimulationState,
     state=st.integers(0, 255).filter(lambda it: it != SimulationState.STATE_QUITTING),
 )
+# None that can be written.
 odd_paths = st.sampled_from(
     ["/", "/dev/null/state", "/no/such/folder/state", "\0", "x" * 5000, " "]
 )
