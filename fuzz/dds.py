@@ -126,7 +126,7 @@ states = st.builds(
 )
 # None that can be written.
 odd_paths = st.sampled_from(
-    ["/", "/dev/null/state", "/no/such/folder/state", "\0", "x" * 5000, " "]
+    ["/", "/dev/null/state", "/no/such/folder/state", "\0", "x" * 5000, "/proc/state"]
 )
 requests = st.one_of(
     request("roller_sim/set_parameters", parameters=sets),
