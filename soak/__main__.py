@@ -7,13 +7,14 @@ import sys
 from pathlib import Path
 
 from benchmarks.machine import facts, load
+from soak.memory import Memory
 from soak.run import Result, lock_step, real_time
 from tools.sections import write_section
 
 PAGE = Path(__file__).resolve().parents[1] / "docs" / "robustness.md"
 HEAD = [
-    "| what | how long | samples | lost | drift | memory of the roller's processes | slope |",
-    "|---|---|---|---|---|---|---|",
+    "| what | how long | samples | lost | drift | memory at the start and after each quarter |",
+    "|---|---|---|---|---|---|",
 ]
 
 
@@ -53,11 +54,18 @@ def _row(it: Result) -> str:
     drift = f"{it.drift_samples:+.3f} samples"
     if it.clock_drift_ms is not None:
         drift += f", {it.clock_drift_ms:+.2f} ms against the steady clock"
-    memory = ", ".join(f"{mb:.1f}" for mb in it.memory.quarters())
+    memory = f"node {_memory(it.memory)}"
+    if it.recording is not None:
+        memory += f"; recording {_memory(it.recording)}"
     return (
         f"| {it.what} | {long} | {it.truth.samples} true, {it.acceleration.samples} of the sensor | {it.lost} "
-        f"| {drift} | {memory} MB at each quarter | {it.memory.slope_mb_per_h:+.2f} MB/h |"
+        f"| {drift} | {memory} |"
     )
+
+
+def _memory(memory: Memory) -> str:
+    quarters = ", ".join(f"{mb:.1f}" for mb in memory.quarters())
+    return f"{quarters} MB, slope {memory.slope_mb_per_h:+.2f} MB/h"
 
 
 if __name__ == "__main__":

@@ -12,11 +12,16 @@ SETTLED = 0.25
 
 
 def resident_mb(pid: int) -> float:
-    """Return the memory that a process and its children hold in RAM, in MB."""
+    """Return the memory that a process holds in RAM, in MB."""
     status = Path(f"/proc/{pid}/status").read_text(encoding="ascii")
     (line,) = [line for line in status.splitlines() if line.startswith("VmRSS")]
-    children = Path(f"/proc/{pid}/task/{pid}/children").read_text(encoding="ascii").split()
-    return float(line.split()[1]) / 1024.0 + sum(resident_mb(int(child)) for child in children)
+    return float(line.split()[1]) / 1024.0
+
+
+def children(pid: int) -> list[int]:
+    """Return the processes that a process has started."""
+    listed = Path(f"/proc/{pid}/task/{pid}/children").read_text(encoding="ascii")
+    return [int(child) for child in listed.split()]
 
 
 @dataclass

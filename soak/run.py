@@ -15,7 +15,7 @@ from pathlib import Path
 from roller_sim_ros.bench.domain import own_domain
 from roller_sim_ros.bench.processes import Process
 from soak.client import Client, SoakError, Stream
-from soak.memory import Memory, resident_mb
+from soak.memory import Memory, children, resident_mb
 
 SITE = Path(__file__).with_name("site.yaml")
 SAMPLES = 128
@@ -43,7 +43,9 @@ class Result:
     clock_drift_ms : float or None
         By how much later blocks came at the end than at the start against the steady clock; in real time only.
     memory : Memory
-        Of the roller's processes.
+        Of the node.
+    recording : Memory or None
+        Of the process that writes the trace.
     last_words : str
         What the roller said at its end.
     """
@@ -56,6 +58,7 @@ class Result:
     drift_samples: float
     clock_drift_ms: float | None
     memory: Memory
+    recording: Memory | None
     last_words: str
 
     @property
@@ -70,14 +73,16 @@ def real_time(seconds: float, tell: Tell = print) -> Result:
         trace = Path(folder) / "trace.mcap"
         with _roller(Path(folder), "--record", str(trace)) as (process, client, pid):
             client.spin_until(lambda: client.truth.samples, "samples")
-            memory, begin = Memory(), time.monotonic()
+            memory, recording, begin = Memory(), Memory(), time.monotonic()
+            (recorder,) = children(pid)
             while time.monotonic() - begin < seconds:
                 client.spin_for(min(seconds / 40.0, 10.0))
                 hours = (time.monotonic() - begin) / 3600.0
                 memory.add(hours, resident_mb(pid))
+                recording.add(hours, resident_mb(recorder))
                 tell(
                     f"{hours:6.3f} h  {client.truth.samples} samples, {client.truth.lost} lost, "
-                    f"{memory.mb[-1]:.1f} MB"
+                    f"{memory.mb[-1]:.1f} + {recording.mb[-1]:.1f} MB"
                 )
             wall_s = time.monotonic() - begin
             process.end()
@@ -86,7 +91,7 @@ def real_time(seconds: float, tell: Tell = print) -> Result:
         return _result(
             "real time, recording",
             client,
-            memory,
+            (memory, recording),
             wall_s,
             1e3 * (statistics.median(ends[1]) - statistics.median(ends[0])),
             _last_words(process),
@@ -118,11 +123,16 @@ def lock_step(hours: float, revolutions: int = 200, tell: Tell = print) -> Resul
                     )
             wall_s = time.monotonic() - begin
             process.end()
-        return _result("lock step", client, memory, wall_s, None, _last_words(process))
+        return _result("lock step", client, (memory, None), wall_s, None, _last_words(process))
 
 
 def _result(
-    what: str, client: Client, memory: Memory, wall_s: float, clock: float | None, words: str
+    what: str,
+    client: Client,
+    memory: tuple[Memory, Memory | None],
+    wall_s: float,
+    clock: float | None,
+    words: str,
 ) -> Result:
     truth = client.truth
     between_s = (truth.last_ns - truth.first_ns) * 1e-9
@@ -135,7 +145,8 @@ def _result(
         truth=truth,
         drift_samples=counted - between_s * HZ * SAMPLES,
         clock_drift_ms=clock,
-        memory=memory,
+        memory=memory[0],
+        recording=memory[1],
         last_words=words,
     )
 
