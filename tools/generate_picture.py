@@ -106,19 +106,9 @@ def picture() -> str:
         for row, folder in enumerate(column):
             at[folder] = (MARGIN + number * STEP_X, MARGIN + top + row * STEP_Y)
     width = 2 * MARGIN + (len(by_column) - 1) * STEP_X + WIDTH
-    height = 2 * MARGIN + (rows - 1) * STEP_Y + HEIGHT
-    lines = [
-        (
-            f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {width} {height}" font-family="sans-serif"'
-            ' font-size="13">'
-        ),
-        "<title>Folders of roller_sim_ros, each with an arrow to those that import it</title>",
-        f'<rect width="{width}" height="{height}" fill="#ffffff"/>',
-        (
-            '<defs><marker id="tip" viewBox="0 0 8 8" refX="7" refY="4" markerWidth="7" markerHeight="7"'
-            ' orient="auto"><path d="M0 0 L8 4 L0 8 z" fill="#8394a5"/></marker></defs>'
-        ),
-    ]
+    bottom = 2 * MARGIN + (rows - 1) * STEP_Y + HEIGHT
+    arrows = []
+    top_of_all, bottom_of_all = 0.0, float(bottom)
     for folder in sorted(graph):
         x, y = at[folder]
         for name in sorted(graph[folder]):
@@ -127,12 +117,32 @@ def picture() -> str:
             bend = (end_x - start_x) / 2
             # Over what stands between, or under it.
             aside = 0.0 if end_x - start_x < STEP_X else 0.34 * (end_x - start_x)
-            aside *= 1.0 if start_y + end_y > height else -1.0
-            lines.append(
+            aside *= 1.0 if start_y + end_y > bottom else -1.0
+            # A curve reaches three quarters of the way to its control points.
+            top_of_all = min(top_of_all, min(start_y, end_y) + 0.75 * aside - MARGIN)
+            bottom_of_all = max(bottom_of_all, max(start_y, end_y) + 0.75 * aside + MARGIN)
+            arrows.append(
                 f'<path d="M{start_x} {start_y:g} C{start_x + bend:g} {start_y + aside:g}'
                 f' {end_x - bend:g} {end_y + aside:g} {end_x} {end_y:g}" fill="none"'
                 ' stroke="#8394a5" marker-end="url(#tip)"/>'
             )
+    frame = f"0 {top_of_all:g} {width} {bottom_of_all - top_of_all:g}"
+    lines = [
+        (
+            f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="{frame}" font-family="sans-serif"'
+            ' font-size="13">'
+        ),
+        "<title>Folders of roller_sim_ros, each with an arrow to those that import it</title>",
+        (
+            f'<rect y="{top_of_all:g}" width="{width}" height="{bottom_of_all - top_of_all:g}"'
+            ' fill="#ffffff"/>'
+        ),
+        (
+            '<defs><marker id="tip" viewBox="0 0 8 8" refX="7" refY="4" markerWidth="7" markerHeight="7"'
+            ' orient="auto"><path d="M0 0 L8 4 L0 8 z" fill="#8394a5"/></marker></defs>'
+        ),
+        *arrows,
+    ]
     for folder, (x, y) in sorted(at.items()):
         lines += [
             (

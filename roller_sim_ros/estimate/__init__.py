@@ -1,9 +1,17 @@
 """The ground estimated back: G and p from vertical drum acceleration and the phase of the eccentric, machine known.
 
->>> from roller_sim_ros import estimate
->>> estimate.estimate_window(revolutions, known)          # shape (revolutions, 128), Configuration
-WindowEstimate(shear_modulus_pa=…, plastic_parameter_m=…, …)
->>> estimate.estimate(vertical, known)                    # all samples; a list, window by window
+>>> import numpy as np
+>>> from roller_sim_ros.estimate import estimate_window
+>>> from roller_sim_ros.parameters import Configuration
+>>> from roller_sim_ros.session import Session
+>>> known = Configuration()
+>>> session = Session(known.changed({"soil.shear_modulus_pa": 35e6, "soil.plastic_parameter_m": 0.8e-3}))
+>>> settled = [session.advance(128).acceleration_vertical for _ in range(300)][-16:]
+>>> found = estimate_window(np.array(settled), known)
+>>> print(f"{found.shear_modulus_pa / 1e6:.2f} MPa, {found.plastic_parameter_m * 1e3:.3f} mm")
+35.00 MPa, 0.800 mm
+
+`estimate` does so for all samples of a run, window by window, `estimate_trace` for a trace.
 
 Names are imported when they are used, so that the command can show its help without loading the kernels.
 """

@@ -52,9 +52,11 @@ class Roller:
 
     Examples
     --------
-    >>> with Roller(Path("run")) as roller:  # doctest: +SKIP
-    ...     roller.step(revolutions=20)
-    ...     roller.last("meter").cmv
+    ::
+
+        with Roller(Path("run")) as roller:
+            roller.step(revolutions=20)
+            print(roller.last("meter").cmv)
     """
 
     def __init__(self, folder: Path, *arguments: str, patience_s: float = PATIENCE_S) -> None:
