@@ -206,6 +206,37 @@ def test_services_are_generated_and_are_those_of_the_sources() -> None:
                 assert getattr(part, constant) == int(value), f"{name}.{constant}"
 
 
+def test_services_have_the_fields_and_results_of_simulation_interfaces() -> None:
+    # As simulation_interfaces 1.x has them, its package name replaced by this one's.
+    services = importlib.import_module("roller_sim_ros.srv")
+    generated = importlib.import_module("roller_sim_ros.msg")
+    result, state = ("result", "roller_sim_ros/Result"), ("state", "roller_sim_ros/SimulationState")
+    features = ("features", "roller_sim_ros/SimulatorFeatures")
+    for name, (request, response) in {
+        "StepSimulation": ([("steps", "uint64")], [result]),
+        "ResetSimulation": ([("scope", "uint8")], [result]),
+        "SetSimulationState": ([state], [result]),
+        "GetSimulationState": ([], [state, result]),
+        "GetSimulatorFeatures": ([], [features]),
+    }.items():
+        service = getattr(services, name)
+        assert list(service.Request.get_fields_and_field_types().items()) == request, name
+        assert list(service.Response.get_fields_and_field_types().items()) == response, name
+    assert services.StepSimulation.Request().steps == 1
+    assert list(generated.SimulatorFeatures.get_fields_and_field_types().items()) == [
+        ("features", "sequence<uint16>"),
+        ("spawn_formats", "sequence<string>"),
+        ("custom_info", "string"),
+    ]
+    outcome = generated.Result
+    assert (outcome.RESULT_FEATURE_UNSUPPORTED, outcome.RESULT_OK) == (0, 1)
+    assert outcome.RESULT_NOT_FOUND == 2
+    assert (outcome.RESULT_INCORRECT_STATE, outcome.RESULT_OPERATION_FAILED) == (3, 4)
+    states = generated.SimulationState
+    assert (states.STATE_STOPPED, states.STATE_PLAYING, states.STATE_PAUSED) == (0, 1, 2)
+    assert states.STATE_QUITTING == 3
+
+
 def test_every_field_of_the_messages_is_explained() -> None:
     paths = [ROOT / "msg" / f"{name}.msg" for name in MESSAGES]
     paths += [ROOT / "srv" / f"{name}.srv" for name in SERVICES]
