@@ -7,7 +7,8 @@ from pathlib import Path
 
 from roller_sim_ros.commands.numbers import not_negative, positive, whole
 from roller_sim_ros.commands.output import write_json
-from roller_sim_ros.commands.progress import progress
+from roller_sim_ros.commands.parser import command_parser
+from roller_sim_ros.commands.progress import add_progress_flag, progress
 from roller_sim_ros.errors import RollerSimError
 from roller_sim_ros.parameters import PARAMETERS, SAMPLES_PER_REVOLUTION
 
@@ -85,12 +86,7 @@ def main(argv: list[str] | None = None) -> int:
 
 
 def _parser() -> argparse.ArgumentParser:
-    parser = argparse.ArgumentParser(
-        prog="roller-sim analyze",
-        description=DESCRIPTION,
-        epilog=EPILOG,
-        formatter_class=argparse.RawDescriptionHelpFormatter,
-    )
+    parser = command_parser("analyze", DESCRIPTION, EPILOG)
     parser.add_argument("bag", metavar="BAG", type=Path, help="MCAP file or rosbag2 folder")
     parser.add_argument(
         "--topic",
@@ -146,11 +142,7 @@ def _parser() -> argparse.ArgumentParser:
         type=positive,
         help="excitation frequency of an Imu stream, Hz (default: found from its spectrum)",
     )
-    parser.add_argument(
-        "--progress",
-        action="store_true",
-        help="show progress on the standard error also when that is no terminal",
-    )
+    add_progress_flag(parser)
     return parser
 
 

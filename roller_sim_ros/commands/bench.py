@@ -11,6 +11,7 @@ from contextlib import nullcontext
 from pathlib import Path
 
 from roller_sim_ros.commands.numbers import positive
+from roller_sim_ros.commands.parser import command_parser
 from roller_sim_ros.commands.score import add_score_arguments, judge
 from roller_sim_ros.errors import RollerSimError
 from roller_sim_ros.parameters import SAMPLES_PER_REVOLUTION
@@ -115,12 +116,7 @@ def _bench(arguments: argparse.Namespace) -> int:
 
 
 def _parser() -> argparse.ArgumentParser:
-    parser = argparse.ArgumentParser(
-        prog="roller-sim bench",
-        description=DESCRIPTION,
-        epilog=EPILOG,
-        formatter_class=argparse.RawDescriptionHelpFormatter,
-    )
+    parser = command_parser("bench", DESCRIPTION, EPILOG)
     parser.add_argument(
         "scenario",
         metavar="SCENARIO",

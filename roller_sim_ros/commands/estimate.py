@@ -6,10 +6,10 @@ import argparse
 from pathlib import Path
 from typing import NoReturn
 
-from roller_sim_ros.commands.flags import add_parameter_flags, given_values
+from roller_sim_ros.commands.flags import add_parameter_flags, add_params_flag, given_values
 from roller_sim_ros.commands.numbers import not_negative, whole
 from roller_sim_ros.commands.output import write_json
-from roller_sim_ros.commands.progress import progress
+from roller_sim_ros.commands.progress import add_progress_flag, progress
 from roller_sim_ros.commands.soil_flags import machine_values
 from roller_sim_ros.errors import RollerSimError
 from roller_sim_ros.parameters import PARAMETERS, Value
@@ -165,20 +165,11 @@ def _parser() -> argparse.ArgumentParser:
         default=0.0,
         help="frequency of −3 dB of the sensor's second-order Butterworth low-pass; 0: none (default: 0)",
     )
-    parser.add_argument(
-        "--progress",
-        action="store_true",
-        help="show progress on the standard error also when that is no terminal",
-    )
+    add_progress_flag(parser)
     parser.add_argument(
         "--machine", metavar="NAME", help=f"roller that made the trace: {', '.join(MACHINES)}"
     )
-    parser.add_argument(
-        "--params",
-        metavar="FILE",
-        type=Path,
-        help="YAML file with parameters in SI units, as a ROS 2 node reads it or plainly nested; flags win over it",
-    )
+    add_params_flag(parser)
     add_parameter_flags(parser, exclude=_not_known())
     return parser
 

@@ -6,7 +6,8 @@ import argparse
 from pathlib import Path
 
 from roller_sim_ros.commands.numbers import positive
-from roller_sim_ros.commands.progress import progress
+from roller_sim_ros.commands.parser import command_parser
+from roller_sim_ros.commands.progress import add_progress_flag, progress
 from roller_sim_ros.errors import RollerSimError
 
 DESCRIPTION = """\
@@ -78,12 +79,7 @@ def main(argv: list[str] | None = None) -> int:
 
 
 def _parser() -> argparse.ArgumentParser:
-    parser = argparse.ArgumentParser(
-        prog="roller-sim export",
-        description=DESCRIPTION,
-        epilog=EPILOG,
-        formatter_class=argparse.RawDescriptionHelpFormatter,
-    )
+    parser = command_parser("export", DESCRIPTION, EPILOG)
     parser.add_argument("bag", metavar="BAG", type=Path, help="MCAP file or rosbag2 folder")
     parser.add_argument("file", metavar="FILE", type=Path, help="what to write")
     parser.add_argument(
@@ -101,9 +97,5 @@ def _parser() -> argparse.ArgumentParser:
         default=1.0,
         help="side of the map's cells, m (default: %(default)s)",
     )
-    parser.add_argument(
-        "--progress",
-        action="store_true",
-        help="show progress on the standard error also when that is no terminal",
-    )
+    add_progress_flag(parser)
     return parser

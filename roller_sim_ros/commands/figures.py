@@ -6,6 +6,7 @@ import argparse
 import time
 from pathlib import Path
 
+from roller_sim_ros.commands.parser import command_parser
 from roller_sim_ros.figures.registry import FIGURES, Entry, chosen
 from roller_sim_ros.parameters import PARAMETERS
 
@@ -69,11 +70,8 @@ def main(argv: list[str] | None = None) -> int:
 
 
 def _parser() -> argparse.ArgumentParser:
-    parser = argparse.ArgumentParser(
-        prog="roller-sim figures",
-        description=DESCRIPTION,
-        epilog=EPILOG.format(figures="\n".join(map(_line, FIGURES))),
-        formatter_class=argparse.RawDescriptionHelpFormatter,
+    parser = command_parser(
+        "figures", DESCRIPTION, EPILOG.format(figures="\n".join(map(_line, FIGURES)))
     )
     parser.add_argument(
         "names", metavar="NAME", nargs="*", help="figures to draw (default: all without a *)"

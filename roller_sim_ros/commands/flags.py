@@ -4,9 +4,20 @@ from __future__ import annotations
 
 import argparse
 from collections.abc import Collection
+from pathlib import Path
 
 from roller_sim_ros.parameters import PARAMETERS, ParameterError, Quantity, Value
 from roller_sim_ros.parameters.quantity import check
+
+
+def add_params_flag(parser: argparse.ArgumentParser) -> None:
+    """Add ``--params``, a parameter file."""
+    parser.add_argument(
+        "--params",
+        metavar="FILE",
+        type=Path,
+        help="YAML file with parameters in SI units, as a ROS 2 node reads it or plainly nested; flags win over it",
+    )
 
 
 def add_parameter_flags(parser: argparse.ArgumentParser, exclude: Collection[str] = ()) -> None:

@@ -5,7 +5,8 @@ from __future__ import annotations
 import argparse
 from pathlib import Path
 
-from roller_sim_ros.commands.flags import add_parameter_flags, given_values
+from roller_sim_ros.commands.flags import add_parameter_flags, add_params_flag, given_values
+from roller_sim_ros.commands.parser import command_parser
 from roller_sim_ros.commands.soil_flags import add_soil_flags, with_presets
 from roller_sim_ros.parameters import Configuration
 from roller_sim_ros.parameters.file import read_parameters
@@ -57,19 +58,9 @@ def main(argv: list[str] | None = None) -> int:
 
 
 def _parser() -> argparse.ArgumentParser:
-    parser = argparse.ArgumentParser(
-        prog="roller-sim fmu",
-        description=DESCRIPTION,
-        epilog=EPILOG,
-        formatter_class=argparse.RawDescriptionHelpFormatter,
-    )
+    parser = command_parser("fmu", DESCRIPTION, EPILOG)
     parser.add_argument("file", metavar="FILE", type=Path, help="what to write, ending in .fmu")
-    parser.add_argument(
-        "--params",
-        metavar="FILE",
-        type=Path,
-        help="YAML file with parameters in SI units, as a ROS 2 node reads it or plainly nested; flags win over it",
-    )
+    add_params_flag(parser)
     add_soil_flags(parser)
     add_parameter_flags(parser, exclude=("recording.path",))
     return parser

@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from roller_sim_ros.commands.numbers import positive, whole
+from roller_sim_ros.commands.parser import command_parser
 from roller_sim_ros.errors import RollerSimError
 
 if TYPE_CHECKING:
@@ -98,12 +99,8 @@ def main(argv: list[str] | None = None) -> int:
 
 
 def _parser() -> argparse.ArgumentParser:
-    parser = argparse.ArgumentParser(
-        prog="roller-sim play",
-        usage="%(prog)s [OPTION ...] TRACE [--ros-args ...]",
-        description=DESCRIPTION,
-        epilog=EPILOG,
-        formatter_class=argparse.RawDescriptionHelpFormatter,
+    parser = command_parser(
+        "play", DESCRIPTION, EPILOG, usage="%(prog)s [OPTION ...] TRACE [--ros-args ...]"
     )
     parser.add_argument("trace", metavar="TRACE", type=Path, help="MCAP file or rosbag2 folder")
     parser.add_argument(

@@ -2,8 +2,18 @@
 
 from __future__ import annotations
 
+import argparse
 import sys
 from collections.abc import Callable
+
+
+def add_progress_flag(parser: argparse.ArgumentParser) -> None:
+    """Add ``--progress``: show it also where nobody may look."""
+    parser.add_argument(
+        "--progress",
+        action="store_true",
+        help="show progress on the standard error also when that is no terminal",
+    )
 
 
 def progress(what: str, *, always: bool) -> Callable[[float], None]:

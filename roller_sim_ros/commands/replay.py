@@ -6,6 +6,7 @@ import argparse
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from roller_sim_ros.commands.parser import command_parser
 from roller_sim_ros.commands.progress import progress
 
 if TYPE_CHECKING:
@@ -94,12 +95,7 @@ def _told(difference: Difference) -> str:
 
 
 def _parser() -> argparse.ArgumentParser:
-    parser = argparse.ArgumentParser(
-        prog="roller-sim replay",
-        description=DESCRIPTION,
-        epilog=EPILOG,
-        formatter_class=argparse.RawDescriptionHelpFormatter,
-    )
+    parser = command_parser("replay", DESCRIPTION, EPILOG)
     parser.add_argument("trace", type=Path, help="MCAP file or folder of a bag, whole or not")
     parser.add_argument(
         "--namespace", default="", help="of the roller, where the trace has several of them"

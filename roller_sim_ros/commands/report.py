@@ -5,7 +5,8 @@ from __future__ import annotations
 import argparse
 from pathlib import Path
 
-from roller_sim_ros.commands.progress import progress
+from roller_sim_ros.commands.parser import command_parser
+from roller_sim_ros.commands.progress import add_progress_flag, progress
 from roller_sim_ros.errors import RollerSimError
 
 DESCRIPTION = """\
@@ -71,12 +72,7 @@ def main(argv: list[str] | None = None) -> int:
 
 
 def _parser() -> argparse.ArgumentParser:
-    parser = argparse.ArgumentParser(
-        prog="roller-sim report",
-        description=DESCRIPTION,
-        epilog=EPILOG,
-        formatter_class=argparse.RawDescriptionHelpFormatter,
-    )
+    parser = command_parser("report", DESCRIPTION, EPILOG)
     parser.add_argument("trace", metavar="TRACE", type=Path, help="MCAP file or rosbag2 folder")
     parser.add_argument(
         "-o",
@@ -96,9 +92,5 @@ def _parser() -> argparse.ArgumentParser:
         metavar="TOPIC",
         help="a meter under test, whose verdict is shown as roller-sim score has it",
     )
-    parser.add_argument(
-        "--progress",
-        action="store_true",
-        help="show progress on the standard error also when that is no terminal",
-    )
+    add_progress_flag(parser)
     return parser

@@ -8,10 +8,11 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from roller_sim_ros.commands import scenario_run
-from roller_sim_ros.commands.flags import add_parameter_flags, given_values
+from roller_sim_ros.commands.flags import add_parameter_flags, add_params_flag, given_values
 from roller_sim_ros.commands.numbers import whole
 from roller_sim_ros.commands.output import write_json
-from roller_sim_ros.commands.progress import progress
+from roller_sim_ros.commands.parser import command_parser
+from roller_sim_ros.commands.progress import add_progress_flag, progress
 from roller_sim_ros.commands.soil_flags import add_soil_flags, with_presets
 from roller_sim_ros.parameters import Configuration, ParameterError
 from roller_sim_ros.parameters.file import read_parameters
@@ -119,12 +120,7 @@ def _run(configuration: Configuration, arguments: argparse.Namespace) -> Tail:
 
 
 def _parser() -> argparse.ArgumentParser:
-    parser = argparse.ArgumentParser(
-        prog="roller-sim run",
-        description=DESCRIPTION,
-        epilog=EPILOG,
-        formatter_class=argparse.RawDescriptionHelpFormatter,
-    )
+    parser = command_parser("run", DESCRIPTION, EPILOG)
     parser.add_argument(
         "--revolutions",
         metavar="N",
@@ -149,17 +145,8 @@ def _parser() -> argparse.ArgumentParser:
         help="draw the last revolutions: acceleration, force against displacement, spectrum in orders; "
         "png, pdf or svg",
     )
-    parser.add_argument(
-        "--progress",
-        action="store_true",
-        help="show progress on the standard error also when that is no terminal",
-    )
-    parser.add_argument(
-        "--params",
-        metavar="FILE",
-        type=Path,
-        help="YAML file with parameters in SI units, as a ROS 2 node reads it or plainly nested; flags win over it",
-    )
+    add_progress_flag(parser)
+    add_params_flag(parser)
     scenario_run.add_scenario_arguments(parser)
     add_soil_flags(parser)
     add_parameter_flags(parser)

@@ -7,6 +7,7 @@ import sys
 from pathlib import Path
 
 from roller_sim_ros.commands.output import write_json
+from roller_sim_ros.commands.parser import command_parser
 from roller_sim_ros.commands.progress import progress
 from roller_sim_ros.errors import RollerSimError
 
@@ -139,12 +140,7 @@ def add_score_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def _parser() -> argparse.ArgumentParser:
-    parser = argparse.ArgumentParser(
-        prog="roller-sim score",
-        description=DESCRIPTION,
-        epilog=EPILOG,
-        formatter_class=argparse.RawDescriptionHelpFormatter,
-    )
+    parser = command_parser("score", DESCRIPTION, EPILOG)
     parser.add_argument("bag", metavar="BAG", type=Path, help="MCAP file or rosbag2 folder")
     parser.add_argument(
         "--topic", metavar="NAME", required=True, help="topic of the meter under test"

@@ -4,11 +4,13 @@ from __future__ import annotations
 
 import argparse
 import json
+import os
 import sys
 from itertools import pairwise
 from pathlib import Path
 
 from roller_sim_ros.commands.flags import add_parameter_flags, given_values
+from roller_sim_ros.commands.parser import command_parser
 from roller_sim_ros.errors import RollerSimError
 from roller_sim_ros.node.signals import handled
 from roller_sim_ros.parameters import PARAMETERS, Value
@@ -63,6 +65,8 @@ def main(argv: list[str] | None = None) -> int:
         # Before the others, so that what is set by -p holds over the file.
         ros = [*_from_file(arguments.params), *ros]
     _check_files(ros)
+    # Before numpy is there: its matrices here are small, and threads for them only hold up the pacing.
+    os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
     with handled() as signals:
         try:
             # What takes long to import, or needs ROS 2, comes after --help and wrong arguments.
@@ -130,12 +134,7 @@ def _check_files(ros: list[str]) -> None:
 
 
 def _parser() -> argparse.ArgumentParser:
-    parser = argparse.ArgumentParser(
-        prog="roller-sim sim",
-        description=DESCRIPTION,
-        epilog=EPILOG,
-        formatter_class=argparse.RawDescriptionHelpFormatter,
-    )
+    parser = command_parser("sim", DESCRIPTION, EPILOG)
     parser.add_argument(
         "--namespace", default="", metavar="NAME", help="namespace of the node and its topics"
     )

@@ -12,7 +12,9 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, NoReturn
 
 from roller_sim_ros.commands.axis_flags import add_axis_flags, axis_of_flag, given_axes
+from roller_sim_ros.commands.flags import add_params_flag
 from roller_sim_ros.commands.numbers import whole
+from roller_sim_ros.commands.progress import add_progress_flag
 from roller_sim_ros.commands.soil_flags import add_soil_flags, soil_from, with_presets
 from roller_sim_ros.errors import RollerSimError
 from roller_sim_ros.parameters import Configuration
@@ -311,17 +313,8 @@ def _parser() -> argparse.ArgumentParser:
         metavar="ADDRESS",
         help="compute on the workers of a dask.distributed scheduler, as in tcp://10.0.0.1:8786",
     )
-    parser.add_argument(
-        "--progress",
-        action="store_true",
-        help="show progress on the standard error also when that is no terminal",
-    )
-    parser.add_argument(
-        "--params",
-        metavar="FILE",
-        type=Path,
-        help="YAML file with parameters in SI units, as a ROS 2 node reads it or plainly nested; flags win over it",
-    )
+    add_progress_flag(parser)
+    add_params_flag(parser)
     add_soil_flags(parser)
     add_axis_flags(parser, exclude=("recording.path",))
     return parser
