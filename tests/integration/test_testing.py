@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import re
 import shutil
 import subprocess
 import sys
@@ -106,7 +107,12 @@ def test_arguments_that_the_roller_refuses(start_roller: Callable[..., Roller]) 
 
 
 def test_as_a_user_runs_it(tmp_path: Path) -> None:
-    (tmp_path / "conftest.py").write_text('pytest_plugins = ["roller_sim_ros.testing"]\n')
+    # The page's own files, each with its name in the first line.
+    page = (ROOT / "docs" / "testing.md").read_text(encoding="utf-8")
+    files = re.findall(r"```python\n# (\S+)\n(.*?)```", page, flags=re.DOTALL)
+    assert [name for name, _ in files] == ["conftest.py", "test_ground.py"]
+    for name, text in files:
+        (tmp_path / name).write_text(text)
     for name in ("test_my_meter.py", "meter_client.py"):
         shutil.copy(ROOT / "examples" / name, tmp_path)
     (tmp_path / "test_other.py").write_text(
@@ -129,7 +135,7 @@ def test_as_a_user_runs_it(tmp_path: Path) -> None:
         timeout=PATIENCE_S,
         check=False,
     )
-    assert "1 failed, 1 passed" in done.stdout, done.stdout + done.stderr
+    assert "1 failed, 2 passed" in done.stdout, done.stdout + done.stderr
     assert "assert 128 == 129" in done.stdout
     (kept,) = (tmp_path / "kept").iterdir()
     assert f"test_other.py::test_that_fails: roller's trace {kept}" in done.stdout
