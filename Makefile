@@ -1,4 +1,4 @@
-# make setup | sim | test | check | bench | fuzz | soak | docs | clean
+# make setup | sim | demo | test | check | bench | fuzz | soak | docs | clean
 #
 # Everything goes into .venv and build; nothing needs sourcing.
 
@@ -11,6 +11,8 @@ ARGS ?=
 TESTS ?=
 # The Python to make .venv from; found when not given.
 export PYTHON
+# A browser for tests/browser; found when not given.
+export CHROMIUM
 
 # A ROS 2 that is sourced, or a parent that runs in a venv with ROS wheels, must not leak in.
 unexport PYTHONPATH PYTHONHOME AMENT_PREFIX_PATH CMAKE_PREFIX_PATH _ROS_WHEELS_BOOTSTRAP_COMPLETE
@@ -18,7 +20,7 @@ ifdef ROS_DISTRO
 unexport LD_LIBRARY_PATH
 endif
 
-.PHONY: setup sim test check bench fuzz soak docs site clean
+.PHONY: setup sim demo chromium screenshots test check bench fuzz soak docs site clean
 
 setup:
 	@tools/setup.sh
@@ -26,19 +28,36 @@ setup:
 sim: setup
 	@exec $(VENV)/roller-sim sim $(ARGS)
 
+# The roller and its page; ARGS are those of the roller, PANEL those of the page, as in make demo PANEL="--port 8081".
+demo: setup
+	@mkdir -p build
+	@$(VENV)/roller-sim sim $(ARGS) >build/demo.log 2>&1 & roller=$$!; \
+	trap 'kill -TERM $$roller 2>/dev/null; wait $$roller' EXIT; \
+	echo "demo: the roller says what it does in build/demo.log; Ctrl-C ends both"; \
+	$(VENV)/roller-sim panel $(PANEL)
+
 # The checks come first so that pytest's summary is the last line. What computes runs on all cores; what runs in real
 # time and talks over DDS has the machine to itself.
 PYTEST = ROS_LOG_DIR="$(CURDIR)/build/ros_log" ROS_AUTOMATIC_DISCOVERY_RANGE=LOCALHOST \
  RMW_IMPLEMENTATION=rmw_fastrtps_cpp $(VENV)/python -m pytest
 
-test: check
+test: check chromium
 	@mkdir -p build/ros_log
 ifeq ($(strip $(TESTS)),)
-	@$(PYTEST) tests --ignore=tests/integration --numprocesses=logical --dist=loadfile
-	@$(PYTEST) tests/integration
+	@$(PYTEST) tests --ignore=tests/integration --ignore=tests/browser --numprocesses=logical --dist=loadfile
+	@$(PYTEST) tests/integration tests/browser
 else
 	@$(PYTEST) $(TESTS)
 endif
+
+# What tests/browser run in; quiet when it is there.
+chromium:
+	@tools/chromium.sh
+
+# The pictures of docs/panel.md, as the test of the page takes them.
+screenshots: setup chromium
+	@mkdir -p build/ros_log
+	@ROLLER_SIM_SCREENSHOTS="$(CURDIR)/docs/figures" $(PYTEST) tests/browser -k screenshots
 
 check: setup
 	@echo "check: ruff, mypy --strict, pages"

@@ -175,7 +175,7 @@ class Picture:
     def _spectrum(self) -> NDArray[np.float64]:
         """Return the amplitudes, m/s², of the DFT of the last whole revolutions up to the highest order."""
         turn = self._acceleration["turn"]
-        end = math.floor(turn[-1] + 1e-6) if len(turn) else 0
+        end = math.floor(turn[-1] + 1.0 / SAMPLES_PER_REVOLUTION + 1e-6) if len(turn) else 0
         begin = end - WINDOW_REVOLUTIONS
         if not len(turn) or turn[0] > begin + 1e-6:
             return np.zeros(0)
@@ -204,13 +204,16 @@ class Picture:
 
     def _take_acceleration(self, block: Any) -> None:
         track, length = self._acceleration, len(block.vertical)
+        if track.following is not None and block.sequence < track.following:
+            # A fault may let blocks come late or twice; a new run that begins later than here shows in the truth.
+            if block.sequence:
+                return
+            self.forget()
         first_s = _seconds(block.header.stamp)
         if track.following != block.sequence:
-            if track.following is None or block.sequence < track.following:
+            if math.isnan(self._began_s):
                 self._began_s = first_s - block.sequence * block.sample_period
             self._turn = block.eccentric_phase / _TURN
-        if track.following is not None and block.sequence < track.following:
-            track.clear()
         steps = np.arange(length)
         track.append(
             int(block.sequence),

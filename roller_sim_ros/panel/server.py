@@ -12,6 +12,7 @@ from collections.abc import Awaitable
 from contextlib import suppress
 from pathlib import Path
 from typing import Any, Protocol
+from urllib.parse import quote
 
 import tornado.httpserver
 import tornado.netutil
@@ -394,7 +395,7 @@ def is_local(address: str) -> bool:
 def url(address: str, port: int, token: str) -> str:
     """Return what to open in a browser."""
     host = f"[{address}]" if ":" in address else address
-    query = f"?token={token}" if token else ""
+    query = f"?token={quote(token)}" if token else ""
     return f"http://{host}:{port}/{query}"
 
 

@@ -66,7 +66,7 @@ export class Plot {
     context.fillStyle = this.colours.soft;
     context.textAlign = "center";
     context.textBaseline = "top";
-    const stepX = step(this.x[1] - this.x[0], Math.max(2, area.width / 70));
+    const stepX = step(this.x[1] - this.x[0], Math.max(2, area.width / 60));
     const digits = (size) => Math.max(0, -Math.floor(Math.log10(size) + 1e-9));
     context.beginPath();
     for (let n = Math.ceil(this.x[0] / stepX - 1e-9); n * stepX <= this.x[1] + 1e-9 * stepX; n++) {
