@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 import pytest
 from mcap.opcode import Opcode
+from mcap.writer import Writer
 
 from roller_sim_ros.emulation import Emulator
 from roller_sim_ros.offline.recording import record
@@ -19,18 +20,34 @@ from roller_sim_ros.traces.reader import TraceReader
 from roller_sim_ros.wire.types import decode, typestore
 
 REVOLUTIONS = 40
+CHUNK_BYTES = 50_000
 TOPICS = ("/drum/acceleration", "/truth", "/meter", "/exciter/state", "/site/state")
 
 
 @pytest.fixture(scope="module")
 def trace(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    path = tmp_path_factory.mktemp("columns") / "run.mcap"
-    configuration = Configuration().changed({"recording.flush_period_s": 0.05})
+    """A recorded run, written once more in many chunks: of a recording they go by the clock."""
+    folder = tmp_path_factory.mktemp("columns")
+    configuration = Configuration()
     emulator = Emulator(configuration, start_ns=10**18)
-    with record(emulator, path, run_metadata(configuration, 10**18)) as step:
+    with record(emulator, folder / "run.mcap", run_metadata(configuration, 10**18)) as step:
         for _ in range(REVOLUTIONS * 128 // configuration.pacing.samples_per_message):
             step()
-    return path
+    reader = TraceReader(folder / "run.mcap")
+    with (folder / "chunks.mcap").open("wb") as stream:
+        writer = Writer(stream, chunk_size=CHUNK_BYTES)
+        writer.start(profile="ros2")
+        channels = {}
+        for info in reader.topics.values():
+            text = info.schema_text.encode("utf-8")
+            schema = writer.register_schema(info.type_name, info.schema_encoding, text)
+            channels[info.name] = writer.register_channel(info.name, info.encoding, schema)
+        for item in reader.messages():
+            writer.add_message(
+                channels[item.topic], item.log_time_ns, item.data, item.publish_time_ns
+            )
+        writer.finish()
+    return folder / "chunks.mcap"
 
 
 def decoded(path: Path, topic: str) -> list[Any]:
@@ -109,9 +126,8 @@ def test_damage_costs_its_chunk_only(trace: Path, tmp_path: Path) -> None:
     with open_trace(trace) as stream:
         frames = list(FrameReader(stream, len(data)))
     chunks = [frame for frame in frames if frame.opcode == Opcode.CHUNK]
-    assert len(chunks) > 1
-    # The largest holds many revolutions; when chunks end goes by the clock.
-    chunk = max(chunks, key=lambda frame: len(frame.content))
+    assert len(chunks) > 2
+    chunk = chunks[1]
     data[chunk.offset + len(chunk.content) // 2] ^= 0xFF
     path = tmp_path / "damaged.mcap"
     path.write_bytes(data)
