@@ -15,6 +15,7 @@ BENCHMARKS = {
     "offline": "times real time without ROS, with and without messages; what a saved state costs",
     "estimate": "a window of 16 revolutions, beside one run of the model",
     "node": "the real-time node: lateness against a bare loop, share of a core, lost samples",
+    "panel": "the live page beside the node: lateness without and with it, frames drawn, CPU time",
     "lock_step": "times real time in lock step, with DDS, a recording and a client in the loop",
     "start": "from the start of roller-sim sim to the first sample, beside a plain publisher",
     "startup": "import times of the commands and the heaviest imports",
