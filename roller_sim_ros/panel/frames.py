@@ -38,7 +38,9 @@ def packed(values: Mapping[str, Any], arrays: Mapping[str, NDArray[Any]]) -> byt
     lengths = [[name, len(array)] for name, array in arrays.items()]
     head = text({**values, "arrays": lengths}).encode()
     padding = bytes(-(4 + len(head)) % 4)
-    body = (np.ascontiguousarray(array, dtype="<f4").tobytes() for array in arrays.values())
+    # What single precision cannot hold becomes infinite, which the page does not draw.
+    with np.errstate(over="ignore"):
+        body = [np.ascontiguousarray(array, dtype="<f4").tobytes() for array in arrays.values()]
     return b"".join([struct.pack("<I", len(head)), head, padding, *body])
 
 

@@ -5,14 +5,22 @@ from __future__ import annotations
 import math
 from collections import deque
 from collections.abc import Callable
+from contextlib import suppress
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
+from rosbags.serde import SerdeError
 
 from roller_sim_ros.panel.frames import packed
 from roller_sim_ros.panel.track import Track
-from roller_sim_ros.parameters import PARAMETERS, SAMPLES_PER_REVOLUTION, Configuration, Value
+from roller_sim_ros.parameters import (
+    PARAMETERS,
+    SAMPLES_PER_REVOLUTION,
+    Configuration,
+    ParameterError,
+    Value,
+)
 from roller_sim_ros.report.displacement import twice_integrated, without_sinking
 from roller_sim_ros.wire import topics
 from roller_sim_ros.wire.types import decode
@@ -92,8 +100,11 @@ class Picture:
         }
 
     def take(self, topic: topics.Topic, data: bytes) -> bool:
-        """Take a message of one of `TOPICS`, in CDR; return whether it comes from the roller."""
-        message = decode(data, topic.type_name)
+        """Take a message of one of `TOPICS`, in CDR; return whether it comes from the roller and is whole."""
+        try:
+            message = decode(data, topic.type_name)
+        except SerdeError:
+            return False
         if topic is topics.DIAGNOSTICS:
             return self._take_diagnostics(message)
         self._takers[topic.name](message)
@@ -104,12 +115,16 @@ class Picture:
         values: dict[str, Value] = {}
         for name, fact in self.facts.items():
             if name.startswith((*_OF_THE_MACHINE, "soil.")) and name in PARAMETERS:
-                values[name] = type(PARAMETERS[name][1])(fact)
+                with suppress(ValueError):
+                    values[name] = type(PARAMETERS[name][1])(fact)
         if "machine.drum_mass_kg" not in values or not self._true:
             return None
         for name in ("shear_modulus_pa", "plastic_parameter_m"):
             values[f"soil.{name}"] = self._true[name]
-        return Configuration().changed(values)
+        try:
+            return Configuration().changed(values)
+        except ParameterError:
+            return None
 
     def frame(self) -> bytes:
         """Return what is new since the last frame."""
@@ -204,6 +219,9 @@ class Picture:
 
     def _take_acceleration(self, block: Any) -> None:
         track, length = self._acceleration, len(block.vertical)
+        phases = (block.eccentric_phase, block.phase_increment, block.sample_period)
+        if len(block.horizontal) != length or not all(map(math.isfinite, phases)):
+            return
         if track.following is not None and block.sequence < track.following:
             # A fault may let blocks come late or twice; a new run that begins later than here shows in the truth.
             if block.sequence:
@@ -227,10 +245,12 @@ class Picture:
         self._turn += length * block.phase_increment / _TURN
 
     def _take_truth(self, block: Any) -> None:
+        if not len(block.drum_height) == len(block.soil_force) == len(block.horizontal):
+            return
         following = self._truth.following
         if following is not None and block.sequence < following:
             self.forget()
-        turning = block.excitation_frequency > 0.0
+        turning = block.excitation_frequency > 0.0 and block.sample_period > 0.0
         self._rate_hz = 1.0 / block.sample_period if turning else 0.0
         self._truth.append(
             int(block.sequence),

@@ -114,6 +114,25 @@ def test_blocks_that_come_twice_or_late_change_nothing() -> None:
     assert pictured([*sent, *blocks[-3:-1]]).frame() == expected
 
 
+def test_damaged_messages_are_let_go() -> None:
+    sent = driven(20)
+    random = np.random.default_rng(1)
+    picture = Picture(NODE)
+    for message in sent[:2000]:
+        if message.topic not in BY_NAME:
+            continue
+        data = bytearray(message.data)
+        # The first half of the bytes: heads, times and lengths.
+        for at in random.integers(0, len(data) // 2, 3):
+            data[at] = random.integers(256)
+        picture.take(BY_NAME[message.topic], bytes(data))
+        picture.frame()
+        picture.configuration()
+    assert not picture.take(BY_NAME["truth"], b"")
+    values, _ = unpacked(pictured(driven(20), picture).whole())
+    assert values["meter"]["last_sample"] == 20 * 128 - 1
+
+
 def test_the_configuration_is_that_of_machine_and_ground() -> None:
     configuration = Configuration().changed(
         {
