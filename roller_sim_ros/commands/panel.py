@@ -23,7 +23,7 @@ Whoever opens the page can command the roller. It is there for this machine alon
 use --token. What goes over the network is not encrypted. Arguments for ROS 2 itself follow --ros-args.
 """
 
-NICENESS = 5
+NICENESS = 10
 """The page is less urgent than the roller's blocks."""
 
 
