@@ -59,9 +59,10 @@ async def _serve(arguments: argparse.Namespace, ros_arguments: list[str]) -> Non
     for signal_number in (signal.SIGINT, signal.SIGTERM):
         loop.add_signal_handler(signal_number, stop.set)
     # What takes long to import, or needs ROS 2, comes after --help and wrong arguments.
+    from roller_sim_ros.panel.addresses import is_local
     from roller_sim_ros.panel.client import Client
     from roller_sim_ros.panel.picture import TOPICS, Picture
-    from roller_sim_ros.panel.server import Panel, is_local
+    from roller_sim_ros.panel.server import Panel
 
     def say(url: str) -> None:
         local = is_local(arguments.bind)

@@ -12,8 +12,9 @@ import tornado.websocket
 from tornado.httpclient import HTTPClientError, HTTPRequest
 
 from roller_sim_ros.errors import RollerSimError
+from roller_sim_ros.panel.addresses import is_local, url
 from roller_sim_ros.panel.picture import Picture
-from roller_sim_ros.panel.server import Panel, is_local, url
+from roller_sim_ros.panel.server import Panel
 
 TOKEN = "grün & 7"
 QUERY = "?token=gr%C3%BCn%20%26%207"
