@@ -178,7 +178,7 @@ def test_a_reload_recovers(page: Page) -> None:
     page.reload()
     live(page)
     until(page, lambda: page.evaluate(DRAWN) > 3)
-    assert page.evaluate(BLANK) == []
+    until(page, lambda: page.evaluate(BLANK) == [])
 
 
 def test_a_recording_is_begun_and_ended(page: Page, client: Client, roller) -> None:
@@ -221,7 +221,7 @@ def test_screenshots(page: Page, scheme: str) -> None:
     expect(page.locator("#map-ground")).to_have_text(re.compile("MPa.*Hz$"))
     expect(page.locator("#rate")).to_have_text(re.compile("[1-9]"))
     expect(page.locator("#mode")).to_have_text("double jump")
-    assert page.evaluate(BLANK) == []
+    until(page, lambda: page.evaluate(BLANK) == [])
     # Nothing to push sideways, and nothing too small for a thumb.
     assert page.evaluate("document.documentElement.scrollWidth") <= page.viewport_size["width"]
     heights = page.eval_on_selector_all(
