@@ -6,7 +6,6 @@ import re
 import signal
 import subprocess
 import sys
-import time
 from pathlib import Path
 
 import netCDF4
@@ -110,9 +109,13 @@ def test_what_is_done_survives_being_killed(tmp_path: Path) -> None:
     path = tmp_path / "map.nc"
     sweep(*MAP, "--out", path)
     before = path.read_bytes()
-    command = [*COMMAND, "--frequency-hz", "20:35:300", "--all-revolutions", "--force"]
-    with subprocess.Popen([*command, "--out", str(path)]) as process:
-        time.sleep(2.0)
+    much = ("--frequency-hz", "20:35:300", "--revolutions", "20000", "--all-revolutions")
+    command = [*COMMAND, *much, "--progress", "--force", "--out", str(path)]
+    with subprocess.Popen(command, stderr=subprocess.PIPE, text=True, bufsize=1) as process:
+        assert process.stderr is not None
+        shown = ""
+        while not re.search(r" [1-9]\d*/300 ", shown):
+            shown += process.stderr.read(1)
         process.kill()
     assert path.read_bytes() == before
 
