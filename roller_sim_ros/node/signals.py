@@ -10,6 +10,14 @@ from types import FrameType
 _NUMBERS = (signal.SIGINT, signal.SIGTERM)
 
 
+class Stopped(KeyboardInterrupt):
+    """A signal came before the node ran.
+
+    Not KeyboardInterrupt itself: where that one passes through the `exec` of a text, as in the making of a
+    dataclass, Python ends the process as killed by SIGINT although it was caught.
+    """
+
+
 class Signals:
     """What the signals mean: an interruption while the node starts, a request once it runs.
 
@@ -18,7 +26,7 @@ class Signals:
     stop : bool
         Whether one came.
     running : bool
-        Whether the node looks at `stop`; until then a signal raises KeyboardInterrupt.
+        Whether the node looks at `stop`; until then a signal raises `Stopped`.
     """
 
     def __init__(self) -> None:
@@ -29,7 +37,7 @@ class Signals:
         """Be told of a signal, as `signal.signal` does it."""
         self.stop = True
         if not self.running:
-            raise KeyboardInterrupt
+            raise Stopped
 
 
 @contextmanager
