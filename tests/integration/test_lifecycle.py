@@ -43,6 +43,8 @@ def test_life_from_unconfigured_to_its_end(start, client):
     assert not refused.vibrating
     assert blocks == []
 
+    client.spin_until(lambda: client.node.count_publishers("/drum/acceleration"))
+    client.spin_for(0.5)  # known, it is heard a little later
     assert client.change_state("activate")
     assert client.state() == "active"
     client.spin_until(lambda: len(blocks) > 20)
@@ -69,7 +71,7 @@ def test_life_from_unconfigured_to_its_end(start, client):
     assert client.change_state("deactivate")
     assert client.change_state("cleanup")
     assert client.state() == "unconfigured"
-    assert client.node.count_publishers("/drum/acceleration") == 0
+    client.spin_until(lambda: client.node.count_publishers("/drum/acceleration") == 0)
     assert client.change_state("shutdown")
     assert client.state() == "finalized"
     assert sim.end() == 0
