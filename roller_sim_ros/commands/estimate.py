@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import argparse
 from pathlib import Path
-from typing import NoReturn
 
 from roller_sim_ros.commands.flags import add_parameter_flags, add_params_flag, given_values
 from roller_sim_ros.commands.numbers import not_negative, whole
 from roller_sim_ros.commands.output import write_json
+from roller_sim_ros.commands.parser import terse_parser
 from roller_sim_ros.commands.progress import add_progress_flag, progress
 from roller_sim_ros.commands.soil_flags import machine_values
 from roller_sim_ros.errors import RollerSimError
@@ -106,23 +106,8 @@ def _number(value: Value | None) -> float | None:
     return None if value is None else float(value)
 
 
-class _Parser(argparse.ArgumentParser):
-    """Refuses in one line."""
-
-    def error(self, message: str) -> NoReturn:
-        """Show what is wrong and leave."""
-        self.exit(2, f"{self.prog}: error: {message}\n")
-
-
 def _parser() -> argparse.ArgumentParser:
-    parser = _Parser(
-        prog="roller-sim estimate",
-        usage="roller-sim estimate BAG [OPTION ...]",
-        description=DESCRIPTION,
-        epilog=EPILOG,
-        formatter_class=argparse.RawDescriptionHelpFormatter,
-        allow_abbrev=False,
-    )
+    parser = terse_parser("estimate", DESCRIPTION, EPILOG, "roller-sim estimate BAG [OPTION ...]")
     parser.add_argument("bag", metavar="BAG", type=Path, help="MCAP file or rosbag2 folder")
     parser.add_argument(
         "--topic",

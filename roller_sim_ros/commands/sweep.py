@@ -9,11 +9,12 @@ from collections.abc import Callable, Iterator
 from contextlib import ExitStack, contextmanager
 from importlib import import_module
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, NoReturn
+from typing import TYPE_CHECKING, Any
 
 from roller_sim_ros.commands.axis_flags import add_axis_flags, axis_of_flag, given_axes
 from roller_sim_ros.commands.flags import add_params_flag
 from roller_sim_ros.commands.numbers import whole
+from roller_sim_ros.commands.parser import terse_parser
 from roller_sim_ros.commands.progress import add_progress_flag
 from roller_sim_ros.commands.soil_flags import add_soil_flags, soil_from, with_presets
 from roller_sim_ros.errors import RollerSimError
@@ -251,23 +252,8 @@ def _summary(results: Results, path: Path, took_s: float) -> str:
     return f"{path}: {grid.size} points, {axes}, {took_s:.1f} s\n{', '.join(shares)}"
 
 
-class _Parser(argparse.ArgumentParser):
-    """Refuses in one line."""
-
-    def error(self, message: str) -> NoReturn:
-        """Show what is wrong and leave."""
-        self.exit(2, f"{self.prog}: error: {message}\n")
-
-
 def _parser() -> argparse.ArgumentParser:
-    parser = _Parser(
-        prog="roller-sim sweep",
-        usage="roller-sim sweep --out FILE [OPTION ...]",
-        description=DESCRIPTION,
-        epilog=EPILOG,
-        formatter_class=argparse.RawDescriptionHelpFormatter,
-        allow_abbrev=False,
-    )
+    parser = terse_parser("sweep", DESCRIPTION, EPILOG, "roller-sim sweep --out FILE [OPTION ...]")
     parser.add_argument(
         "--out", metavar="FILE", type=Path, required=True, help="file to write, as in map.nc"
     )
