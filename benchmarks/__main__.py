@@ -10,6 +10,7 @@ from benchmarks.machine import facts, load
 from benchmarks.options import Options
 from benchmarks.registry import BENCHMARKS, measure
 from benchmarks.report import PATH, section, write
+from roller_sim_ros.errors import RollerSimError
 
 QUICK_S = 8.0
 """Length of what is measured in real time when it is only tried out; the exciter has run up by then."""
@@ -59,7 +60,7 @@ def main() -> int:
         before = load()
         try:
             text = section(measure(name, options), machine, before)
-        except BenchmarkError as error:
+        except (BenchmarkError, RollerSimError) as error:
             print(f"{name}: {error}", file=sys.stderr)
             failed = True
             continue

@@ -19,8 +19,9 @@ from rclpy.qos import QoSProfile
 
 from benchmarks.errors import BenchmarkError
 from benchmarks.options import Options
-from benchmarks.processes import PATIENCE_S, Process, domain
+from benchmarks.processes import PATIENCE_S, Process
 from benchmarks.table import Table, seconds
+from roller_sim_ros.bench.domain import own_domain
 from roller_sim_ros.emulation import Emulator
 from roller_sim_ros.msg import CompactionMeter, DrumAcceleration, Result
 from roller_sim_ros.parameters import SAMPLES_PER_REVOLUTION, Configuration
@@ -141,7 +142,7 @@ def _stepped(samples: int, executor: str) -> tuple[Cost, Cost]:
         "exciter.frequency_rate_hz_per_s": 1000.0,
     }
     arguments = [word for item in parameters.items() for word in ("-p", "{}:={}".format(*item))]
-    with tempfile.TemporaryDirectory() as folder, domain() as number:
+    with tempfile.TemporaryDirectory() as folder, own_domain() as number:
         trace = str(Path(folder, "trace.mcap"))
         with (
             Process(

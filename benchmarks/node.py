@@ -10,8 +10,9 @@ from pathlib import Path
 from benchmarks.errors import BenchmarkError
 from benchmarks.options import Options
 from benchmarks.percentiles import SHARES
-from benchmarks.processes import TOPIC, Process, domain, sim
+from benchmarks.processes import TOPIC, Process, sim
 from benchmarks.table import Table
+from roller_sim_ros.bench.domain import own_domain
 from roller_sim_ros.parameters import SAMPLES_PER_REVOLUTION, Configuration
 
 FREQUENCIES_HZ = (28.0, 40.0)
@@ -30,7 +31,7 @@ _RECORDED = re.compile(r"recorded .*: (?P<messages>\d+) messages, .* (?P<dropped
 def measure(options: Options) -> Table:
     """Run the node at both frequencies, then for long."""
     rows: list[tuple[str, ...]] = []
-    with tempfile.TemporaryDirectory() as name, domain() as number:
+    with tempfile.TemporaryDirectory() as name, own_domain() as number:
         folder = Path(name)
         lengths = [(frequency, options.seconds) for frequency in FREQUENCIES_HZ]
         lengths.append((FREQUENCIES_HZ[-1], 60.0 * options.minutes))

@@ -15,8 +15,9 @@ from typing import Any
 from benchmarks.errors import BenchmarkError
 from benchmarks.options import Options
 from benchmarks.percentiles import SHARES
-from benchmarks.processes import Process, domain
+from benchmarks.processes import Process
 from benchmarks.table import Table
+from roller_sim_ros.bench.domain import own_domain
 from roller_sim_ros.parameters import SAMPLES_PER_REVOLUTION, Configuration
 
 HZ = 40.0
@@ -37,7 +38,7 @@ _SUMMARY = re.compile(
 def measure(options: Options) -> Table:
     """Run the node alone, with the page's server, and with a browser that shows the page."""
     length_s = min(options.seconds, LONGEST_S)
-    with tempfile.TemporaryDirectory() as name, domain() as number:
+    with tempfile.TemporaryDirectory() as name, own_domain() as number:
         rows = [_run(Path(name), number, what, length_s) for what in RUNS]
     return Table(
         title="Live page",

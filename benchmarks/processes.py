@@ -2,15 +2,12 @@
 
 from __future__ import annotations
 
-import fcntl
 import json
 import os
 import signal
 import subprocess
 import sys
 import time
-from collections.abc import Iterator
-from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
@@ -22,25 +19,6 @@ PATIENCE_S = 60.0
 
 _ROOT = Path(__file__).resolve().parents[1]
 _CLOCK_TICKS = os.sysconf("SC_CLK_TCK")
-
-
-@contextmanager
-def domain() -> Iterator[int]:
-    """Yield a ROS domain that no other benchmark or test on this machine uses at the same time."""
-    for number in range(10, 100):
-        # The file that the tests lock too.
-        descriptor = os.open(f"/tmp/roller_sim_domain_{number}", os.O_CREAT | os.O_RDWR, 0o666)
-        try:
-            fcntl.flock(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
-        except OSError:
-            os.close(descriptor)
-            continue
-        try:
-            yield number
-        finally:
-            os.close(descriptor)
-        return
-    raise BenchmarkError("all ROS domains are in use")
 
 
 def environment(folder: Path, number: int) -> dict[str, str]:

@@ -8,8 +8,9 @@ from pathlib import Path
 from statistics import median
 
 from benchmarks.options import Options
-from benchmarks.processes import TOPIC, Process, domain, sim
+from benchmarks.processes import TOPIC, Process, sim
 from benchmarks.table import Table, seconds
+from roller_sim_ros.bench.domain import own_domain
 from roller_sim_ros.traces.reader import TraceReader
 
 STARTS = 9
@@ -22,7 +23,7 @@ def measure(options: Options) -> Table:
     """Start the node and a plain publisher in turn."""
     published, heard, used, plain = [], [], [], []
     starts = options.rounds(STARTS)
-    with tempfile.TemporaryDirectory() as name, domain() as number:
+    with tempfile.TemporaryDirectory() as name, own_domain() as number:
         folder = Path(name)
         _start(folder, number)  # compiles what the disk does not hold yet
         for _ in range(starts):

@@ -14,8 +14,9 @@ from statistics import median
 
 from benchmarks.errors import BenchmarkError
 from benchmarks.options import Options
-from benchmarks.processes import PATIENCE_S, domain, environment
+from benchmarks.processes import PATIENCE_S, environment
 from benchmarks.table import Table, seconds
+from roller_sim_ros.bench.domain import own_domain
 from roller_sim_ros.commands import COMMANDS
 
 ROUNDS = 5
@@ -34,7 +35,7 @@ def measure(options: Options) -> Table:
     sims: list[Times] = []
     runs: list[Times] = []
     helps: dict[str, list[float]] = {command: [] for command in HELP}
-    with tempfile.TemporaryDirectory() as name, domain() as number:
+    with tempfile.TemporaryDirectory() as name, own_domain() as number:
         folder = Path(name)
         for _ in range(rounds):
             sims.append(_imports(folder, number, "sim", ends=False))

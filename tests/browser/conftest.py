@@ -14,7 +14,8 @@ from pathlib import Path
 import pytest
 from playwright.sync_api import Browser, Page, expect, sync_playwright
 
-from tests.integration.harness import PATIENCE_S, Client, Sim, domain
+from roller_sim_ros.bench.domain import own_domain
+from tests.integration.harness import PATIENCE_S, Client, Sim
 
 QUICK = ("--ros-args", "-p", "exciter.frequency_rate_hz_per_s:=100.0")
 
@@ -80,7 +81,7 @@ class Panel:
 
 @pytest.fixture(scope="session")
 def number() -> Iterator[int]:
-    with domain() as found:
+    with own_domain() as found:
         yield found
 
 

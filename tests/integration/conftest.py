@@ -8,14 +8,15 @@ from pathlib import Path
 
 import pytest
 
+from roller_sim_ros.bench.domain import own_domain as locked_domain
 from roller_sim_ros.msg import Result
 from roller_sim_ros.srv import ResetSimulation
-from tests.integration.harness import Client, Sim, domain
+from tests.integration.harness import Client, Sim
 
 
 @pytest.fixture
 def own_domain() -> Iterator[int]:
-    with domain() as number:
+    with locked_domain() as number:
         yield number
 
 
@@ -36,7 +37,7 @@ def client(own_domain: int) -> Iterator[Client]:
 
 @pytest.fixture(scope="session")
 def shared_domain() -> Iterator[int]:
-    with domain() as number:
+    with locked_domain() as number:
         yield number
 
 
@@ -100,7 +101,7 @@ def stepped_sim(scenario, tmp_path_factory) -> Iterator[tuple[int, Sim]]:
     """Return domain and process of a roller in lock step on a scenario."""
     folder = tmp_path_factory.mktemp("stepped_sim")
     with (
-        domain() as number,
+        locked_domain() as number,
         Sim(folder, number, "--lock-step", "--scenario", str(scenario)) as sim,
     ):
         yield number, sim

@@ -2,14 +2,12 @@
 
 from __future__ import annotations
 
-import fcntl
 import os
 import signal
 import subprocess
 import sys
 import time
-from collections.abc import Callable, Iterator, Mapping
-from contextlib import contextmanager
+from collections.abc import Callable, Mapping
 from itertools import count
 from pathlib import Path
 from typing import Any
@@ -42,24 +40,6 @@ TRANSITIONS = {
     "cleanup": Transition.TRANSITION_CLEANUP,
     "shutdown": Transition.TRANSITION_UNCONFIGURED_SHUTDOWN,
 }
-
-
-@contextmanager
-def domain() -> Iterator[int]:
-    """Yield a ROS domain that no other test on this machine uses at the same time."""
-    for number in range(10, 100):
-        descriptor = os.open(f"/tmp/roller_sim_domain_{number}", os.O_CREAT | os.O_RDWR, 0o666)
-        try:
-            fcntl.flock(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
-        except OSError:
-            os.close(descriptor)
-            continue
-        try:
-            yield number
-        finally:
-            os.close(descriptor)
-        return
-    raise RuntimeError("all domains are in use")
 
 
 def roller_sim(command: str, *arguments: object) -> str:

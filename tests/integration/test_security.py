@@ -18,9 +18,10 @@ from pathlib import Path
 
 import pytest
 
+from roller_sim_ros.bench.domain import own_domain
 from roller_sim_ros.jit import cache_directory
 from tests.integration.harness import NODE as NAME
-from tests.integration.harness import PATIENCE_S, Client, Sim, domain
+from tests.integration.harness import PATIENCE_S, Client, Sim
 
 POLICY = Path(__file__).resolve().parents[2] / "security" / "roller_sim.policy.xml"
 STRANGER = 64123
@@ -84,7 +85,7 @@ def run(tmp_path_factory: pytest.TempPathFactory) -> Run:
     folder = tmp_path_factory.mktemp("run")
     bare = "import rclpy; rclpy.init(); node = rclpy.create_node('bare'); print('ready', flush=True); input()"
     with (
-        domain() as number,
+        own_domain() as number,
         Client(number) as client,
         subprocess.Popen(
             [sys.executable, "-c", bare],
