@@ -12,8 +12,8 @@ from roller_sim_ros.session import Block
 from roller_sim_ros.wire import messages
 from roller_sim_ros.wire.messages import Message
 
-ROUNDING_S = 1e-9
-"""A sample that is due so little after a moment is due at it."""
+ROUNDING_S = 2e-9
+"""A sample that is due so little after a moment is due at it: a time between two stamps, of whole ns, is off by one."""
 
 
 class Run:

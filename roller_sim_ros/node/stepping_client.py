@@ -22,7 +22,7 @@ from roller_sim_ros.errors import RollerSimError
 from roller_sim_ros.msg import ExciterCommand, Result
 from roller_sim_ros.node.interfaces import message_type
 from roller_sim_ros.node.qos import profile
-from roller_sim_ros.parameters import Pacing, Value
+from roller_sim_ros.parameters import SAMPLES_PER_REVOLUTION, Pacing, Value
 from roller_sim_ros.srv import (
     Advance,
     ClearFaults,
@@ -39,6 +39,8 @@ DEPTH = 100_000
 LOOK_S = 0.05
 IDLE = 3
 """Looks without a message after which none is there: a look may find something else to do."""
+LONGEST_NS = 10**9
+"""No revolution is longer, at the lowest sampling floor there is."""
 _SERVICES: dict[str, Any] = {
     "advance": Advance,
     "step_simulation": StepSimulation,
@@ -82,8 +84,9 @@ class SteppingClient:
         self._raw: dict[str, list[bytes]] = {}
         self._read: dict[str, list[Any]] = {}
         self._arrived = 0
-        self._next_sample = 0
-        self._looked_at = self._truth_until = 0
+        self._looked_at = 0
+        self._next_sample = self._next_ns = 0
+        self._longest_ns = LONGEST_NS
         self._clients: dict[str, Any] = {
             name: self.node.create_client(service, name) for name, service in _SERVICES.items()
         }
@@ -155,18 +158,43 @@ class SteppingClient:
         return list(read)
 
     def step(self, *, revolutions: int, seconds: float, samples: int) -> int:
-        """Step, and return the index of the next sample when all that was published on the way has come."""
-        if samples:
-            self._checked(self._call("step_simulation", steps=samples))
-            expected = self._next_sample + samples
+        """Step, and return the index of the next sample when all that was published on the way has come.
+
+        It goes by a revolution at a time: shared memory takes 512 messages that a process has not fetched yet, and what
+        comes on top of them is sent again seconds later, when the step may be long over.
+        """
+        if seconds:
+            end_ns = self._next_ns + round(seconds * 1e9)
+            while end_ns - self._next_ns > self._longest_ns:
+                self._step_by(self._to_revolution)
+            self._advance(seconds=(end_ns - self._next_ns) * 1e-9)
+        elif revolutions:
+            for _ in range(revolutions):
+                self._advance(revolutions=1)
         else:
-            response = self._call("advance", revolutions=revolutions, seconds=seconds)
-            self._checked(response)
-            expected = int(response.next_sample)
-        self._next_sample = expected
-        self.wait_for(lambda: self._truth_is_there(expected), "the samples of the step")
+            while samples > 0:
+                steps = min(samples, self._to_revolution)
+                self._step_by(steps)
+                samples -= steps
+        return self._next_sample
+
+    @property
+    def _to_revolution(self) -> int:
+        return SAMPLES_PER_REVOLUTION - self._next_sample % SAMPLES_PER_REVOLUTION
+
+    def _step_by(self, samples: int) -> None:
+        self._checked(self._call("step_simulation", steps=samples))
+        self._take_until(self._next_sample + samples)
+
+    def _advance(self, **by: float) -> None:
+        response = self._call("advance", **by)
+        self._checked(response)
+        self._take_until(int(response.next_sample))
+
+    def _take_until(self, next_sample: int) -> None:
+        """Take all that was published before a sample."""
+        self.wait_for(lambda: self._truth_is_there(next_sample), "the samples of the step")
         self._drain()
-        return expected
 
     def command(self, *, vibrate: bool, frequency_hz: float, amplitude_m: float) -> None:
         """Publish an exciter command, and return when the roller has it."""
@@ -252,8 +280,14 @@ class SteppingClient:
         if len(raw) != self._looked_at:
             self._looked_at = len(raw)
             truth = deserialize_message(raw[-1], self._types[topics.TRUTH.name])
-            self._truth_until = int(truth.sequence) + len(truth.soil_force)
-        return self._truth_until >= next_sample
+            size, stamp = len(truth.soil_force), truth.header.stamp
+            self._next_sample = int(truth.sequence) + size
+            self._next_ns = (
+                stamp.sec * 10**9 + stamp.nanosec + round(size * truth.sample_period * 1e9)
+            )
+            # The next revolution may be longer than this one, but not so much.
+            self._longest_ns = round(2.0 * SAMPLES_PER_REVOLUTION * truth.sample_period * 1e9)
+        return self._next_sample >= next_sample
 
     @staticmethod
     def _checked(response: Any) -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import os
 import signal
 import sys
@@ -144,7 +145,8 @@ class Roller:
         RollerSimError
             If not exactly one of them is given, or the roller refuses.
         """
-        if sum(bool(it) for it in (revolutions, seconds, samples)) != 1:
+        given = [it for it in (revolutions, seconds, samples) if it]
+        if len(given) != 1 or not 0.0 < given[0] < math.inf:
             raise RollerSimError(
                 f"step(revolutions={revolutions}, seconds={seconds}, samples={samples}): "
                 "give one of them, greater than 0"

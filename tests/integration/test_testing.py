@@ -5,9 +5,11 @@ from __future__ import annotations
 import os
 import re
 import shutil
+import signal
 import subprocess
 import sys
 import textwrap
+import time
 from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -68,8 +70,10 @@ def refusals(roller: Roller) -> None:
         roller.step()
     with pytest.raises(RollerSimError, match="give one of them"):
         roller.step(revolutions=1, samples=1)
-    with pytest.raises(RollerSimError, match="revolutions 999999: must be at most"):
-        roller.step(revolutions=999_999)
+    with pytest.raises(
+        RollerSimError, match=r"step\(revolutions=0, seconds=inf, samples=0\): give"
+    ):
+        roller.step(seconds=float("inf"))
     with pytest.raises(RollerSimError, match="soil.density_kg_m3 = 1.0: must be at least"):
         roller.set_parameters(soil__density_kg_m3=1.0)
     with pytest.raises(RollerSimError, match="there is no fault 'spikes'; did you mean spike"):
@@ -104,6 +108,39 @@ def test_two_rollers_get_the_same_samples_and_do_not_hear_each_other(
 def test_arguments_that_the_roller_refuses(start_roller: Callable[..., Roller]) -> None:
     with pytest.raises(RollerSimError, match="the roller ended with 1; .*no file and no scenario"):
         start_roller("--scenario", "no_such_scenario")
+
+
+def test_a_test_that_gets_no_processor_still_gets_all_messages(tmp_path: Path) -> None:
+    # Stopped, it fetches nothing: in one request the step would send far more than shared memory keeps for it.
+    script = """
+        from pathlib import Path
+        from roller_sim_ros.testing import Roller
+        from roller_sim_ros.wire import topics
+
+        per_revolution = [topics.METER, topics.CMV, *topics.FURTHER_METERS, topics.SITE_STATE]
+        with Roller(Path("run")) as roller:
+            for _ in range(6):
+                print("steps", flush=True)
+                revolutions = roller.step(seconds=3.0) // 128
+                print(revolutions, *(len(roller.received(topic.name)) for topic in per_revolution))
+        """
+    process = subprocess.Popen(
+        [sys.executable, "-c", textwrap.dedent(script)],
+        cwd=tmp_path,
+        stdout=subprocess.PIPE,
+        text=True,
+    )
+    assert process.stdout is not None
+    with process:
+        for _ in range(6):
+            assert process.stdout.readline() == "steps\n"
+            time.sleep(0.1)
+            process.send_signal(signal.SIGSTOP)
+            time.sleep(0.5)
+            process.send_signal(signal.SIGCONT)
+            revolutions, *received = map(int, process.stdout.readline().split())
+            assert received == [revolutions] * len(received)
+    assert revolutions > 300
 
 
 def test_as_a_user_runs_it(tmp_path: Path) -> None:
