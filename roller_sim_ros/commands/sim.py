@@ -166,6 +166,6 @@ def _parser() -> argparse.ArgumentParser:
         "--record-topic",
         action="append",
         metavar="NAME",
-        help="a further topic to record, as that of a meter under test; may be repeated",
+        help="a further topic to record, as that of a meter under test, or drum/imu; may be repeated",
     )
     return parser

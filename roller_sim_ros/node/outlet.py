@@ -45,6 +45,8 @@ class Outlet:
     ----------
     trace : Recorder or None
         Where the bytes go, too; the topics are registered there by their resolved names.
+    imu_recorded : bool
+        Whether the per-sample messages are to go there although nobody listens to them.
     publishers : dict
         By the names of the table.
     unsent : int
@@ -55,6 +57,7 @@ class Outlet:
         self, node: Node, pacing: Pacing, now_ns: Callable[[], int] = time.time_ns
     ) -> None:
         self.trace: Recorder | None = None
+        self.imu_recorded = False
         self.publishers: dict[str, Publisher[Any]] = {}
         self.unsent = 0
         self._node = node
@@ -93,8 +96,9 @@ class Outlet:
                 publisher.publish(message.data)
 
     def imu_wanted(self) -> bool:
-        """Return whether anyone listens to the per-sample messages."""
-        return bool(self.publishers[topics.IMU.name].get_subscription_count())
+        """Return whether anyone listens to the per-sample messages, or the recording is to have them."""
+        recorded = self.trace is not None and self.imu_recorded
+        return recorded or bool(self.publishers[topics.IMU.name].get_subscription_count())
 
     def _open(self, topic: topics.Topic, pacing: Pacing) -> None:
         with overrides_of(topic):

@@ -123,16 +123,16 @@ class Recording:
             flush_period_s=self.parameters.flush_period_s,
             patience_s=PATIENCE_S if configuration.pacing.simulated_time else 0.0,
         )
+        names = [name.strip() for name in self.parameters.topics.split(",") if name.strip()]
+        self._asked = dict.fromkeys(node.resolve_topic_name(name) for name in names)
         self.attach(outlet)
         for name, topic in commands.items():
             register(self.trace, name, topic.type_name, topic.qos(configuration.pacing))
         events = topics.PARAMETER_EVENTS
         self._record(events.name, events.type_name, events.qos(configuration.pacing))
-        names = [name.strip() for name in self.parameters.topics.split(",") if name.strip()]
         own = {publisher.topic_name for publisher in outlet.publishers.values()}
         own |= {*commands, events.name}
-        resolved = dict.fromkeys(node.resolve_topic_name(name) for name in names)
-        self.awaited = [name for name in resolved if name not in own]
+        self.awaited = [name for name in self._asked if name not in own]
         self.look_for_topics()
 
     def attach(self, outlet: Outlet) -> None:
@@ -142,6 +142,7 @@ class Recording:
             if publisher is not None:
                 qos = row(publisher.qos_profile)
                 register(self.trace, publisher.topic_name, topic.type_name, qos)
+        outlet.imu_recorded = outlet.publishers[topics.IMU.name].topic_name in self._asked
         outlet.trace = self.trace
 
     def put_command(self, name: str, data: bytes, received_ns: int, published_ns: int) -> None:

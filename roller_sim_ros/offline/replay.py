@@ -150,7 +150,7 @@ class Replay:
                 if item.kind in (InputKind.BEGIN, InputKind.RESTORE):
                     if run is not None and run.end():
                         return
-                    # Per-sample messages are there only while someone listens.
+                    # Per-sample messages are there only while someone listened, or asked for them.
                     imu = self._messages_of(topics.IMU) > 0
                     run = _Run(begun(item), self._alignments, imu=imu, hashes=self._hash)
                     self.runs.append(run.result)

@@ -172,7 +172,7 @@ class Recording(ParameterGroup):
     topics: str = parameter(
         "",
         "",
-        "further topics to record, separated by commas (a meter under test)",
+        "further topics to record, separated by commas (a meter under test; drum/imu)",
     )
     flush_period_s: float = parameter(
         0.5,

@@ -107,7 +107,8 @@ IMU = Topic(
     "drum/imu",
     "sensor_msgs/msg/Imu",
     Direction.PUBLISHED,
-    "the same per sample as specific force, m/s², +9.81 on z at rest; only while someone listens",
+    "the same per sample as specific force, m/s², +9.81 on z at rest; "
+    "while someone listens, or with `--record-topic drum/imu`",
     _SAMPLES,
     "per sample, decimated",
 )

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import math
 
+import numpy as np
+import pytest
 from action_msgs.msg import GoalStatus
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
 from geometry_msgs.msg import PointStamped
@@ -11,7 +13,8 @@ from rcl_interfaces.msg import ParameterEvent
 from std_msgs.msg import Float64
 
 from roller_sim_ros import __version__
-from roller_sim_ros.msg import AppliedChange, ExciterState
+from roller_sim_ros.msg import AppliedChange, CompactionMeter, ExciterState
+from roller_sim_ros.parameters import GRAVITY_M_S2
 from roller_sim_ros.traces.metadata import PARAMETERS as PARAMETER_RECORD
 from roller_sim_ros.traces.metadata import RUN
 from roller_sim_ros.traces.reader import TraceReader
@@ -102,6 +105,28 @@ def test_bag_holds_all_that_belongs_to_the_run(start, client, tmp_path):
     first = next(iter(reader.messages(["/drum/acceleration"])))
     stamp = recorded(bag, "/drum/acceleration")[0].header.stamp
     assert 0 <= first.log_time_ns - (stamp.sec * 10**9 + stamp.nanosec) < 10**9
+
+
+def test_acceleration_by_the_sample_is_recorded_when_asked_for(start, client, tmp_path):
+    bag = tmp_path / "trace.mcap"
+    sim = start(
+        "--record",
+        str(bag),
+        "--record-topic",
+        "drum/imu",
+        "--ros-args",
+        "-p",
+        "pacing.imu_decimation:=4",
+    )
+    meters = client.listen("meter", CompactionMeter)
+    client.spin_until(lambda: len(meters) > 3)
+    assert sim.end() == 0
+    blocks = recorded(bag, "/drum/acceleration")
+    samples = recorded(bag, "/drum/imu")
+    vertical = np.concatenate([block.vertical for block in blocks])
+    assert len(samples) > 3 * 128 / 4
+    found = [sample.linear_acceleration.z for sample in samples]
+    assert found == pytest.approx(vertical[::4][: len(found)] + GRAVITY_M_S2, rel=1e-6)
 
 
 def test_type_without_definition_is_reported_not_fatal(start, client, tmp_path):
