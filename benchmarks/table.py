@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 
-_LEFT_COLUMNS = 1
+from tools.markdown import table
 
 
 @dataclass(frozen=True)
@@ -33,25 +33,9 @@ class Table:
 
     def markdown(self) -> str:
         """Heading, paragraph, table and notes."""
-        widths = [
-            max(len(row[n]) for row in [self.columns, *self.rows]) for n in range(len(self.columns))
-        ]
-        rule = [
-            "-" * width if n < _LEFT_COLUMNS else "-" * (width - 1) + ":"
-            for n, width in enumerate(widths)
-        ]
-        lines = [_line(self.columns, widths), _line(rule, widths)]
-        lines += [_line(row, widths) for row in self.rows]
-        parts = [f"## {self.title}", self.says, "\n".join(lines), *self.notes]
+        lines = table(self.columns, self.rows, numbers=True)
+        parts = [f"## {self.title}", self.says, lines, *self.notes]
         return "\n\n".join(parts) + "\n"
-
-
-def _line(cells: tuple[str, ...] | list[str], widths: list[int]) -> str:
-    padded = [
-        cell.ljust(width) if n < _LEFT_COLUMNS else cell.rjust(width)
-        for n, (cell, width) in enumerate(zip(cells, widths, strict=True))
-    ]
-    return f"| {' | '.join(padded)} |"
 
 
 def seconds(value: float) -> str:

@@ -17,6 +17,7 @@ from hypothesis.errors import HypothesisWarning
 from fuzz.coverage_guided import READINGS
 from fuzz.run import Result, run
 from fuzz.targets import targets
+from tools.markdown import table
 from tools.sections import write_section
 
 ROOT = Path(__file__).resolve().parents[1]
@@ -50,11 +51,10 @@ def main() -> int:
             says[name] = hostile.says
             results[name] = run(hostile, arguments.dds, arguments.seed, tell, shrink=False)
     faulthandler.cancel_dump_traceback_later()
-    table = _table(results, says)
     guided = ""
     if arguments.coverage_guided:
         guided = "\n".join(_guided(name, arguments.coverage_guided) for name in READINGS)
-    text = f"{table}\n\n{guided}".rstrip()
+    text = f"{_table(results, says)}\n\n{guided}".rstrip()
     print(text)
     if arguments.write:
         write_section(PAGE, "fuzz", text)
@@ -98,19 +98,20 @@ def _arguments() -> argparse.Namespace:
 
 def _table(results: dict[str, Result], says: dict[str, str]) -> str:
     rows = [
-        "| what | items | accepted | refused | slowest sequence | time |",
-        "|---|---|---|---|---|---|",
-    ]
-    for name, it in results.items():
-        rows.append(
-            f"| {says[name]} | {it.items} | {it.accepted} | {it.items - it.accepted} | {it.slowest_s:.2f} s "
-            f"| {it.seconds:.0f} s |"
+        (
+            says[name],
+            f"{it.items}",
+            f"{it.accepted}",
+            f"{it.items - it.accepted}",
+            f"{it.slowest_s:.2f} s",
+            f"{it.seconds:.0f} s",
         )
+        for name, it in results.items()
+    ]
     total = sum(it.items for it in results.values())
-    rows.append(
-        f"| **all** | **{total}** | | | | {sum(it.seconds for it in results.values()):.0f} s |"
-    )
-    return "\n".join(rows)
+    seconds = sum(it.seconds for it in results.values())
+    rows.append(("**all**", f"**{total}**", "", "", "", f"{seconds:.0f} s"))
+    return table(("what", "items", "accepted", "refused", "slowest sequence", "time"), rows)
 
 
 def _guided(name: str, seconds: int) -> str:

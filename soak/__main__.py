@@ -9,13 +9,18 @@ from pathlib import Path
 from benchmarks.machine import facts, load
 from soak.memory import Memory
 from soak.run import Result, lock_step, real_time
+from tools.markdown import table
 from tools.sections import write_section
 
 PAGE = Path(__file__).resolve().parents[1] / "docs" / "robustness.md"
-HEAD = [
-    "| what | how long | samples | lost | drift | memory at the start and after each quarter |",
-    "|---|---|---|---|---|---|",
-]
+HEAD = (
+    "what",
+    "how long",
+    "samples",
+    "lost",
+    "drift",
+    "memory at the start and after each quarter",
+)
 
 
 def main() -> int:
@@ -38,7 +43,7 @@ def main() -> int:
         results.append(real_time(60.0 * arguments.real_minutes))
     if arguments.simulated_hours > 0.0:
         results.append(lock_step(arguments.simulated_hours))
-    lines = [*HEAD, *(_row(result) for result in results), ""]
+    lines = [table(HEAD, [_row(result) for result in results]), ""]
     lines += [f"The roller's last words, {it.what}: {it.last_words}\n" for it in results]
     machine = "; ".join(f"{name} {value}" for name, value in facts().items())
     lines.append(f"*{machine}; load before {before}.*")
@@ -49,7 +54,7 @@ def main() -> int:
     return int(any(result.lost for result in results))
 
 
-def _row(it: Result) -> str:
+def _row(it: Result) -> tuple[str, ...]:
     long = f"{it.simulated_s / 3600.0:.2f} h in {it.wall_s / 60.0:.1f} min"
     drift = f"{it.drift_samples:+.3f} samples"
     if it.clock_drift_ms is not None:
@@ -57,10 +62,8 @@ def _row(it: Result) -> str:
     memory = f"node {_memory(it.memory)}"
     if it.recording is not None:
         memory += f"; recording {_memory(it.recording)}"
-    return (
-        f"| {it.what} | {long} | {it.truth.samples} true, {it.acceleration.samples} of the sensor | {it.lost} "
-        f"| {drift} | {memory} |"
-    )
+    samples = f"{it.truth.samples} true, {it.acceleration.samples} of the sensor"
+    return it.what, long, samples, f"{it.lost}", drift, memory
 
 
 def _memory(memory: Memory) -> str:

@@ -20,6 +20,7 @@ from roller_sim_ros.estimate.low_pass import low_pass, passed
 from roller_sim_ros.offline.run import run, step_whole_revolutions
 from roller_sim_ros.parameters import SAMPLES_PER_REVOLUTION, Configuration
 from roller_sim_ros.sensors.sheet import G
+from tools.markdown import table
 from tools.sections import write_section
 
 Array = NDArray[np.float64]
@@ -239,15 +240,10 @@ def _bias_row(
     return row
 
 
-def _table(head: Sequence[str], rows: Sequence[Sequence[str]]) -> str:
-    lines = [head, ["---"] + ["--:"] * (len(head) - 1), *rows]
-    return "\n".join(f"| {' | '.join(line)} |" for line in lines)
-
-
 def tables(count: int) -> dict[str, str]:
     """Return {name: Markdown table}."""
     return {
-        "round trip": _table(
+        "round trip": table(
             (
                 "half space",
                 "noise",
@@ -258,10 +254,12 @@ def tables(count: int) -> dict[str, str]:
                 "CPU time, s: median / most",
             ),
             _round_trip_rows(count),
+            numbers=True,
         ),
-        "bias": _table(
+        "bias": table(
             ("assumed", "G off by, %", "p off by, %", "misfit, %", "stand, %"),
             _bias_rows(count // 2),
+            numbers=True,
         ),
     }
 
@@ -276,8 +274,8 @@ def main() -> int:
     arguments = parser.parse_args()
     found = tables(arguments.points)
     if arguments.write:
-        for name, table in found.items():
-            write_section(PAGE, name, table)
+        for name, text in found.items():
+            write_section(PAGE, name, text)
     return 0
 
 

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import sys
 import textwrap
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from decimal import Decimal
 from pathlib import Path
 
@@ -19,6 +19,8 @@ from roller_sim_ros.score.limits import Limits
 from roller_sim_ros.sensors import SENSORS
 from roller_sim_ros.wire.topics import TOPICS, Direction, Topic
 from tools.generated import write_or_check
+from tools.markdown import table
+from tools.sections import with_sections
 
 ROOT = Path(__file__).resolve().parent.parent
 GENERATED = "by tools/generate_docs.py (make docs) from the declarations"
@@ -69,7 +71,7 @@ def contents() -> dict[str, str]:
         "docs/sensors.md": sensors_page(),
         "docs/faults.md": faults_page(),
         "docs/limits.md": limits_page(),
-        "README.md": readme((ROOT / "README.md").read_text(encoding="utf-8")),
+        "README.md": with_sections(ROOT / "README.md", readme_sections()),
         "config/paper_roller.yaml": parameter_file(
             "The paper's 10 t roller ('Roller data') at its nominal frequency and amplitude.",
             default,
@@ -89,8 +91,8 @@ def contents() -> dict[str, str]:
     return files
 
 
-def readme(text: str) -> str:
-    """Return the README with its tables and examples as the declarations and files are now."""
+def readme_sections() -> dict[str, str]:
+    """Return {name: text} of README's tables and examples, as the declarations and files are now."""
     pacing = Pacing()
     parameters = [
         (
@@ -103,19 +105,14 @@ def readme(text: str) -> str:
         for name, (quantity, default) in PARAMETERS.items()
     ]
     topics = [_topic_row(topic, pacing) for topic in TOPICS]
-    blocks = {
-        "topics": _table(("topic", "type", "rate", "QoS", "what it says"), topics),
-        "parameters": _table(("name", "default", "unit", "live", "what it is"), parameters),
+    sections = {
+        "topics": table(("topic", "type", "rate", "QoS", "what it says"), topics),
+        "parameters": table(("name", "default", "unit", "live", "what it is"), parameters),
     }
     for example in ("meter_client", "controller_client", "test_my_meter"):
         code = (ROOT / "examples" / f"{example}.py").read_text(encoding="utf-8")
-        blocks[example] = ["```python", code.rstrip(), "```"]
-    for name, lines in blocks.items():
-        start, end = f"<!-- generated: {name} -->\n", "<!-- end -->"
-        before, _, rest = text.partition(start)
-        _, _, after = rest.partition(end)
-        text = "".join([before, start, "\n".join(["", *lines, "", end]), after])
-    return text
+        sections[example] = f"```python\n{code.rstrip()}\n```"
+    return sections
 
 
 def parameters_page() -> str:
@@ -135,7 +132,7 @@ def parameters_page() -> str:
                 f"`{name}`",
                 _value_text(default),
                 quantity.unit,
-                _bounds(quantity, default).replace("|", "\\|"),
+                _bounds(quantity, default),
                 "live" if quantity.live else "",
                 f"`{quantity.flag}` ({_flag_default(quantity, default)})" if quantity.flag else "",
                 quantity.doc,
@@ -145,7 +142,9 @@ def parameters_page() -> str:
         ]
         summary = (declaration.__doc__ or "").strip().splitlines()[0]
         lines += ["", f"## {group}", "", summary, ""]
-        lines += _table(("name", "default", "unit", "bounds", "live", "flag", "what it is"), rows)
+        lines.append(
+            table(("name", "default", "unit", "bounds", "live", "flag", "what it is"), rows)
+        )
     return "\n".join([*lines, ""])
 
 
@@ -169,7 +168,7 @@ def topics_page() -> str:
     for direction, title in titles.items():
         rows = [_topic_row(topic, pacing) for topic in TOPICS if topic.direction is direction]
         lines += ["", f"## {title}", ""]
-        lines += _table(("topic", "type", "rate", "QoS", "what it says"), rows)
+        lines.append(table(("topic", "type", "rate", "QoS", "what it says"), rows))
     return "\n".join([*lines, ""])
 
 
@@ -184,12 +183,12 @@ def sensors_page() -> str:
         "",
     ]
     rows = [(f"`{name}`", model.slot.value, model.doc) for name, model in SENSORS.items()]
-    lines += _table(("name", "measures", "what it is"), rows)
+    lines.append(table(("name", "measures", "what it is"), rows))
     groups = dict.fromkeys(model.group for model in SENSORS.values())
     for group in groups:
         names = ", ".join(f"`{name}`" for name, model in SENSORS.items() if model.group is group)
         lines += ["", f"## Parameters of {names}", ""]
-        lines += _table(("name", "default", "unit", "bounds", "what it is"), _group_rows(group))
+        lines.append(table(("name", "default", "unit", "bounds", "what it is"), _group_rows(group)))
     for name, model in SENSORS.items():
         if model.preset is not None and model.preset.stated:
             stated = [
@@ -197,7 +196,7 @@ def sensors_page() -> str:
                 for key, it in model.preset.stated.items()
             ]
             lines += ["", f"## `{name}`: {model.preset.doc}", ""]
-            lines += _table(("parameter", "value", "source", "read there"), stated)
+            lines.append(table(("parameter", "value", "source", "read there"), stated))
     return "\n".join([*lines, ""])
 
 
@@ -221,12 +220,12 @@ def faults_page() -> str:
         )
         for name, fault in FAULTS.items()
     ]
-    lines += _table(("id", "stage", "what it is", "a correct meter is", "excludes"), rows)
+    lines.append(table(("id", "stage", "what it is", "a correct meter is", "excludes"), rows))
     for name, fault in FAULTS.items():
         parameters = _group_rows(fault)
         if parameters:
             lines += ["", f"## Parameters of `{name}`", ""]
-            lines += _table(("name", "default", "unit", "bounds", "what it is"), parameters)
+            lines.append(table(("name", "default", "unit", "bounds", "what it is"), parameters))
     return "\n".join([*lines, ""])
 
 
@@ -239,7 +238,7 @@ def limits_page() -> str:
         "",
         LIMITS_TEXT,
         "",
-        *_table(("limit", "default", "unit", "bounds", "what it is"), _group_rows(Limits)),
+        table(("limit", "default", "unit", "bounds", "what it is"), _group_rows(Limits)),
     ]
     return "\n".join([*lines, ""])
 
@@ -250,7 +249,7 @@ def _group_rows(group: type[ParameterGroup]) -> list[tuple[str, ...]]:
             f"`{name}`",
             _value_text(default),
             quantity.unit,
-            _bounds(quantity, default).replace("|", "\\|"),
+            _bounds(quantity, default),
             quantity.doc,
         )
         for name, quantity, default in declared(group)
@@ -310,11 +309,6 @@ def _value_text(value: Value) -> str:
         text = f"{Decimal(repr(value)):f}"
         return text if "." in text else f"{text}.0"
     return str(value) if value != "" else '""'
-
-
-def _table(head: Sequence[str], rows: Iterable[Sequence[str]]) -> list[str]:
-    lines = ["| " + " | ".join(head) + " |", "|" + "---|" * len(head)]
-    return lines + ["| " + " | ".join(row) + " |" for row in rows]
 
 
 def main(arguments: Sequence[str]) -> int:

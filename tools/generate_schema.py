@@ -14,6 +14,7 @@ from roller_sim_ros.scenario.scenario import Scenario
 from roller_sim_ros.scenario.schema import json_schema
 from roller_sim_ros.site.declaration import TAG, Member, Record, members
 from tools.generated import write_or_check
+from tools.markdown import table
 
 ROOT = Path(__file__).resolve().parent.parent
 
@@ -37,10 +38,9 @@ def keys_page() -> str:
     ]
     for title, record, kind in _records():
         lines += ["", f"## {title}", "", _paragraph(record), ""]
-        lines += ["| key | default | bounds | what it is |", "|---|---|---|---|"]
-        if kind:
-            lines.append(f"| `{TAG}` | required | `{kind}` | which one |")
-        lines += [_row(member) for member in members(record)]
+        tag = [(f"`{TAG}`", "required", f"`{kind}`", "which one")] if kind else []
+        rows = [*tag, *(_row(member) for member in members(record))]
+        lines.append(table(("key", "default", "bounds", "what it is"), rows))
     return "\n".join([*lines, ""])
 
 
@@ -64,7 +64,7 @@ def _records() -> Iterator[tuple[str, type[Record], str]]:
                 ]
 
 
-def _row(member: Member) -> str:
+def _row(member: Member) -> tuple[str, ...]:
     declaration = member.declaration
     default = member.default
     if member.required:
@@ -78,7 +78,7 @@ def _row(member: Member) -> str:
     doc = declaration.doc
     if declaration.source:
         doc += f" (source: {declaration.source}; {'' if declaration.verified else 'not '}verified)"
-    return f"| `{member.name}` | {shown} | {declaration.bounds_text} | {doc} |"
+    return f"`{member.name}`", shown, declaration.bounds_text, doc
 
 
 def _paragraph(record: type[Record]) -> str:

@@ -1,15 +1,13 @@
 """Writes the tables of docs/meters.md and docs/soil.md: what the model makes of the meters, and the presets.
 
-Each table stands between ``<!-- begin NAME -->`` and ``<!-- end NAME -->``. ``--check`` writes nothing and fails
-when a page is not what it would be.
+``--check`` writes nothing and fails when a page is not what it would be.
 """
 
 from __future__ import annotations
 
 import math
-import re
 import sys
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
 
@@ -27,6 +25,8 @@ from roller_sim_ros.parameters import (
 )
 from roller_sim_ros.soil_mechanics import MACHINES, SOILS, GranularSoil
 from tools.generated import write_or_check
+from tools.markdown import table
+from tools.sections import with_sections
 
 ROOT = Path(__file__).resolve().parent.parent
 
@@ -63,7 +63,7 @@ def meter_values(soil: Soil, amplitude_m: float) -> tuple[str, ...]:
     )
 
 
-def stiffness_table() -> list[str]:
+def stiffness_table() -> str:
     """Meter values against G at two amplitudes, p going with G."""
     rows = []
     for amplitude_mm in AMPLITUDES_MM:
@@ -78,7 +78,7 @@ def stiffness_table() -> list[str]:
     return table(("A, mm", "G, MPa", "2 (1 + ν) G, MPa", "mode", *VALUE_HEAD), rows)
 
 
-def plastic_table() -> list[str]:
+def plastic_table() -> str:
     """Meter values against p at one G."""
     rows = []
     for plastic_mm in PLASTIC_MM:
@@ -87,7 +87,7 @@ def plastic_table() -> list[str]:
     return table(("p, mm", "mode", *VALUE_HEAD), rows)
 
 
-def definitions_table() -> list[str]:
+def definitions_table() -> str:
     """What every meter value states of itself."""
     rows = [
         (
@@ -102,7 +102,7 @@ def definitions_table() -> list[str]:
     return table(("value", "unit", "needs", "source of the definition", "verified"), rows)
 
 
-def soils_table() -> list[str]:
+def soils_table() -> str:
     """Grounds by name."""
     rows = []
     for preset in SOILS.values():
@@ -123,7 +123,7 @@ def soils_table() -> list[str]:
     return table((*head, "source", "verified"), rows)
 
 
-def machines_table() -> list[str]:
+def machines_table() -> str:
     """Rollers by name."""
     rows = []
     for preset in MACHINES.values():
@@ -145,7 +145,7 @@ def machines_table() -> list[str]:
     return table((*head, "source", "verified"), rows)
 
 
-def n_gamma_table() -> list[str]:
+def n_gamma_table() -> str:
     """The plastic parameter by friction angle and by author of N_γ, for the paper's machine."""
     rows = []
     for degrees in (35, 40, 45, 50):
@@ -164,11 +164,6 @@ def yes(verified: bool) -> str:
     return "yes" if verified else "no"
 
 
-def table(head: Sequence[str], rows: Iterable[Sequence[str]]) -> list[str]:
-    lines = ["| " + " | ".join(head) + " |", "|" + "---|" * len(head)]
-    return lines + ["| " + " | ".join(row) + " |" for row in rows]
-
-
 PAGES = {
     "docs/meters.md": {
         "definitions": definitions_table,
@@ -185,18 +180,10 @@ PAGES = {
 
 def contents() -> dict[str, str]:
     """Return {path from the root: text} of the pages with their tables as they are now."""
-    found = {}
-    for name, tables in PAGES.items():
-        text = (ROOT / name).read_text(encoding="utf-8")
-        for mark, make in tables.items():
-            begin, end = f"<!-- begin {mark} -->\n", f"<!-- end {mark} -->"
-            pattern = re.compile(f"(?<={re.escape(begin)}).*?(?={re.escape(end)})", re.DOTALL)
-            if not pattern.search(text):
-                raise SystemExit(f"{name}: there is no place for the table {mark}")
-            lines = "\n".join(make())
-            text = pattern.sub(lambda _, lines=lines: f"{lines}\n", text)
-        found[name] = text
-    return found
+    return {
+        name: with_sections(ROOT / name, {mark: make() for mark, make in tables.items()})
+        for name, tables in PAGES.items()
+    }
 
 
 def main(arguments: Sequence[str]) -> int:

@@ -14,18 +14,20 @@ from roller_sim_ros.figures.registry import chosen
 from roller_sim_ros.validation.registry import STATEMENTS
 from roller_sim_ros.validation.statement import Statement
 from roller_sim_ros.validation.study import Study
+from tools import markdown
+from tools.generated import write_or_check
+from tools.sections import with_sections
 
 ROOT = Path(__file__).resolve().parent.parent
-PAGE = ROOT / "docs" / "validation.md"
-BEGIN, END = "<!-- begin statements -->\n", "<!-- end statements -->"
+PAGE = "docs/validation.md"
 
 HALF_SPACES = ("exact", "two-pole")
 PICTURES = (("16", "exact"), ("misleading", "exact"), ("sensitivity", "exact"))
 """Figures that the docs show."""
 
 
-def row(statement: Statement) -> str:
-    """Return a statement as a row of the table."""
+def row(statement: Statement) -> list[str]:
+    """Return the cells of a statement."""
     cells = [statement.where, statement.says]
     for half_space in HALF_SPACES if statement.half_space else HALF_SPACES[:1]:
         finding = statement.check(Study.of(half_space))
@@ -37,21 +39,13 @@ def row(statement: Statement) -> str:
         if statement.command
         else f"tools/validation.py {statement.key}"
     )
-    cells += [f"`{shown}`", f"`{statement.key}`"]
-    return "| " + " | ".join(cell.replace("|", "\\|") for cell in cells) + " |\n"
+    return [*cells, f"`{shown}`", f"`{statement.key}`"]
 
 
 def table() -> str:
     """Return the table."""
-    head = "| paper | says | exact | two-pole | shown by | key |\n|---|---|---|---|---|---|\n"
-    return head + "".join(row(statement) for statement in STATEMENTS)
-
-
-def page(text: str, content: str) -> str:
-    """Return the page with another table."""
-    before, rest = text.split(BEGIN)
-    _, after = rest.split(END)
-    return before + BEGIN + content + END + after
+    head = ("paper", "says", *HALF_SPACES, "shown by", "key")
+    return markdown.table(head, [row(statement) for statement in STATEMENTS])
 
 
 def draw_pictures() -> None:
@@ -71,18 +65,13 @@ def main(arguments: list[str]) -> int:
             print(f"no statement {unknown[0]!r}; there are {', '.join(known)}", file=sys.stderr)
             return 2
         for key in arguments:
-            print(row(known[key]), end="")
+            print(markdown.line(row(known[key])))
         return 0
-    text = PAGE.read_text(encoding="utf-8")
-    new = page(text, table())
-    if arguments:
-        print(
-            "up to date" if new == text else "docs/validation.md is stale: run tools/validation.py"
-        )
-        return int(new != text)
-    PAGE.write_text(new, encoding="utf-8")
-    draw_pictures()
-    return 0
+    new = with_sections(ROOT / PAGE, {"statements": table()})
+    code = write_or_check(ROOT, {PAGE: new}, arguments, "tools/validation.py")
+    if not arguments:
+        draw_pictures()
+    return code
 
 
 if __name__ == "__main__":

@@ -135,8 +135,10 @@ def test_watchdogs_count_simulated_time_and_a_frozen_link_keeps_them_quiet(stepp
     response = stepper.advance(seconds=0.7)
     stepper.spin_until(lambda: states[-1].refusal_code == ExciterState.TIMEOUT)
     assert not states[-1].vibrating
-    stopped = [item for item in applied if item.name == "travel.speed_m_s"][-1]
-    assert stopped.value == 0.0
+    travel = "travel.speed_m_s"
+    (stopped,) = stepper.spin_until(
+        lambda: [item for item in applied if item.name == travel and item.value == 0.0]
+    )
     at_s = stopped.header.stamp.sec + 1e-9 * stopped.header.stamp.nanosec
     end_s = response.stamp.sec + 1e-9 * response.stamp.nanosec
     assert end_s - 0.25 < at_s < end_s
