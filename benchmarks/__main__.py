@@ -9,8 +9,9 @@ from benchmarks.errors import BenchmarkError
 from benchmarks.machine import facts, load
 from benchmarks.options import Options
 from benchmarks.registry import BENCHMARKS, measure
-from benchmarks.report import PATH, section, write
+from benchmarks.report import PATH, section
 from roller_sim_ros.errors import RollerSimError
+from tools.sections import write_section
 
 QUICK_S = 8.0
 """Length of what is measured in real time when it is only tried out; the exciter has run up by then."""
@@ -66,7 +67,7 @@ def main() -> int:
             continue
         print(text, flush=True)
         if arguments.write:
-            write({name: text}, list(BENCHMARKS))
+            write_section(PATH, name, text)
     return 1 if failed else 0
 
 

@@ -1,4 +1,4 @@
-"""All benchmarks by name, in the order of the document; each is imported when it runs."""
+"""All benchmarks by name, in the order of the document, where each has its part; each is imported when it runs."""
 
 from __future__ import annotations
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 
-from tools.markdown import table
+from tools.markdown_table import table
 
 
 @dataclass(frozen=True)

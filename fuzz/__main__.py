@@ -17,7 +17,7 @@ from hypothesis.errors import HypothesisWarning
 from fuzz.coverage_guided import READINGS
 from fuzz.run import Result, run
 from fuzz.targets import targets
-from tools.markdown import table
+from tools.markdown_table import table
 from tools.sections import write_section
 
 ROOT = Path(__file__).resolve().parents[1]

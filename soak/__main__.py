@@ -9,7 +9,7 @@ from pathlib import Path
 from benchmarks.machine import facts, load
 from soak.memory import Memory
 from soak.run import Result, lock_step, real_time
-from tools.markdown import table
+from tools.markdown_table import table
 from tools.sections import write_section
 
 PAGE = Path(__file__).resolve().parents[1] / "docs" / "robustness.md"

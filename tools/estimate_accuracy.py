@@ -20,7 +20,7 @@ from roller_sim_ros.estimate.low_pass import low_pass, passed
 from roller_sim_ros.offline.run import run, step_whole_revolutions
 from roller_sim_ros.parameters import SAMPLES_PER_REVOLUTION, Configuration
 from roller_sim_ros.sensors.sheet import G
-from tools.markdown import table
+from tools.markdown_table import table
 from tools.sections import write_section
 
 Array = NDArray[np.float64]

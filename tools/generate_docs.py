@@ -19,7 +19,7 @@ from roller_sim_ros.score.limits import Limits
 from roller_sim_ros.sensors import SENSORS
 from roller_sim_ros.wire.topics import TOPICS, Direction, Topic
 from tools.generated import write_or_check
-from tools.markdown import table
+from tools.markdown_table import table
 from tools.sections import with_sections
 
 ROOT = Path(__file__).resolve().parent.parent

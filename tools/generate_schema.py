@@ -14,7 +14,7 @@ from roller_sim_ros.scenario.scenario import Scenario
 from roller_sim_ros.scenario.schema import json_schema
 from roller_sim_ros.site.declaration import TAG, Member, Record, members
 from tools.generated import write_or_check
-from tools.markdown import table
+from tools.markdown_table import table
 
 ROOT = Path(__file__).resolve().parent.parent
 

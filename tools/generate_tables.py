@@ -25,7 +25,7 @@ from roller_sim_ros.parameters import (
 )
 from roller_sim_ros.soil_mechanics import MACHINES, SOILS, GranularSoil
 from tools.generated import write_or_check
-from tools.markdown import table
+from tools.markdown_table import table
 from tools.sections import with_sections
 
 ROOT = Path(__file__).resolve().parent.parent

@@ -1,4 +1,4 @@
-"""Parts of a page that a command writes, between ``<!-- written: NAME -->`` and ``<!-- end -->``; the rest is by hand."""
+"""Parts of a page that a command writes, from ``<!-- written: NAME -->`` to ``<!-- end -->``; the rest is by hand."""
 
 from __future__ import annotations
 

@@ -14,7 +14,7 @@ from roller_sim_ros.figures.registry import chosen
 from roller_sim_ros.validation.registry import STATEMENTS
 from roller_sim_ros.validation.statement import Statement
 from roller_sim_ros.validation.study import Study
-from tools import markdown
+from tools import markdown_table
 from tools.generated import write_or_check
 from tools.sections import with_sections
 
@@ -45,7 +45,7 @@ def row(statement: Statement) -> list[str]:
 def table() -> str:
     """Return the table."""
     head = ("paper", "says", *HALF_SPACES, "shown by", "key")
-    return markdown.table(head, [row(statement) for statement in STATEMENTS])
+    return markdown_table.table(head, [row(statement) for statement in STATEMENTS])
 
 
 def draw_pictures() -> None:
@@ -65,7 +65,7 @@ def main(arguments: list[str]) -> int:
             print(f"no statement {unknown[0]!r}; there are {', '.join(known)}", file=sys.stderr)
             return 2
         for key in arguments:
-            print(markdown.line(row(known[key])))
+            print(markdown_table.row(row(known[key])))
         return 0
     new = with_sections(ROOT / PAGE, {"statements": table()})
     code = write_or_check(ROOT, {PAGE: new}, arguments, "tools/validation.py")

@@ -1,6 +1,6 @@
 """The figures and the table of docs/controllers.md: each controller in a scenario, and the scenario without one.
 
-python -m examples.controllers.figures                    # docs/figures/controller_*.png, and the table
+python -m examples.controllers.figures --write            # docs/figures/controller_*.png, and the table of the page
 python -m examples.controllers.figures --only jump_guard --scenario soft_to_stiff --seed 7 --frequency-hz 30
 """
 
@@ -24,6 +24,11 @@ from examples.controllers.phase_tracker import PhaseTracker
 from roller_sim_ros.analysis.panels import BLUE, GREY, LIGHT, drawn_figure
 from roller_sim_ros.scenario import Scenario, SiteMap, read_scenario
 from roller_sim_ros.scenario.shipped import scenario_path
+from tools.markdown_table import table
+from tools.sections import write_section
+
+PAGE = Path(__file__).resolve().parents[2] / "docs" / "controllers.md"
+SCENARIO = "soft_to_stiff"
 
 LAWS: dict[str, Callable[[], Law]] = {
     "jump_guard": JumpGuard,
@@ -83,13 +88,16 @@ def _range(values: NDArray[np.float64]) -> str:
     return f"{values.min():.0f} to {values.max():.0f}"
 
 
-def row(name: str, site_map: SiteMap) -> str:
-    """Return what came out as a row of a table."""
+def row(name: str, site_map: SiteMap) -> tuple[str, ...]:
+    """Return what came out as a row of the table."""
     jumps = jumping(site_map.mode, site_map.rmv)
     known = np.isfinite(site_map.force_ratio_max)
     return (
-        f"| {name} | {100.0 * jumps.mean():.1f} % | {1e3 * site_map.amplitude_m.mean():.2f} mm "
-        f"| {_range(site_map.frequency_hz)} Hz | {site_map.force_ratio_max[known].max():.1f} |"
+        name,
+        f"{100.0 * jumps.mean():.1f} %",
+        f"{1e3 * site_map.amplitude_m.mean():.2f} mm",
+        f"{_range(site_map.frequency_hz)} Hz",
+        f"{site_map.force_ratio_max[known].max():.1f}",
     )
 
 
@@ -104,12 +112,20 @@ def main() -> None:
     parser.add_argument(
         "--only", choices=tuple(LAWS), help="one of the controllers; all when left out"
     )
-    parser.add_argument("--scenario", default="soft_to_stiff", help="name or file (%(default)s)")
+    parser.add_argument("--scenario", default=SCENARIO, help="name or file (%(default)s)")
     parser.add_argument("--seed", type=int, help="another seed than the scenario's")
     parser.add_argument(
         "--frequency-hz", type=float, help="another frequency, Hz, than the scenario's"
     )
+    parser.add_argument(
+        "--write", action="store_true", help=f"put the table into {PAGE.parent.name}/{PAGE.name}"
+    )
     arguments = parser.parse_args()
+    others = (arguments.only, arguments.seed, arguments.frequency_hz)
+    if arguments.write and (arguments.scenario, *others) != (SCENARIO, None, None, None):
+        parser.error(
+            "--write: the page has all controllers in the scenario as it is; leave the other options out"
+        )
     scenario = read_scenario(scenario_path(arguments.scenario))
     if arguments.seed is not None:
         scenario = replace(scenario, seed=arguments.seed)
@@ -119,13 +135,16 @@ def main() -> None:
     arguments.out.mkdir(parents=True, exist_ok=True)
     without = alone(scenario)
     print(f"largest constant amplitude that never jumps: {best_constant_mm(scenario):.2f} mm")
-    print("| controller | double jump | mean amplitude | frequency | largest F_max/F_stat |")
-    print("|---|---|---|---|---|")
-    print(row("none", without))
+    rows = [row("none", without)]
     for name in [arguments.only] if arguments.only else LAWS:
         under = drive(scenario, LAWS[name]())
-        print(row(name, under), flush=True)
+        rows.append(row(name, under))
         draw(name, scenario, without, under, arguments.out / f"controller_{name}.png")
+    head = ("controller", "double jump", "mean amplitude", "frequency", "largest F_max/F_stat")
+    text = table(head, rows)
+    print(text)
+    if arguments.write:
+        write_section(PAGE, "controllers", text)
 
 
 if __name__ == "__main__":

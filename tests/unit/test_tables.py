@@ -83,5 +83,5 @@ def test_check_finds_a_changed_number_and_writing_mends_it(
     assert page.read_text(encoding="utf-8") == text("docs/soil.md")
     assert generate_tables.main(["--check"]) == 0
     page.write_text("nothing\n", encoding="utf-8")
-    with pytest.raises(SystemExit, match="no place for the table soils"):
+    with pytest.raises(SystemExit, match="has no part <!-- written: soils -->"):
         generate_tables.main([])
