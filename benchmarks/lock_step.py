@@ -61,8 +61,8 @@ class Client:
         qos = QoSProfile(depth=DEPTH)
         self._node.create_subscription(DrumAcceleration, "drum/acceleration", self._take, qos)
         self._node.create_subscription(CompactionMeter, "meter", self._take_value, qos)
-        self._advance = self._node.create_client(Advance, "advance")
-        self._state = self._node.create_client(GetSimulationState, "get_simulation_state")
+        self._advance: Any = self._node.create_client(Advance, "advance")
+        self._state: Any = self._node.create_client(GetSimulationState, "get_simulation_state")
         self._until(
             lambda: self._advance.service_is_ready() and self._state.service_is_ready(),
             "the node's services",

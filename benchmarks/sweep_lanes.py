@@ -44,7 +44,8 @@ class EightRuns:
 
     def ours(self) -> Array:
         """Step over the revolutions; return the final states."""
-        states = self._start.copy()
+        states: Array = self._start.copy()
+        sine, cosine, modes, bends = self._shared
         lanes.settle(
             self._constants,
             states,
@@ -52,7 +53,10 @@ class EightRuns:
             REVOLUTIONS - 2,
             2,
             False,
-            *self._shared,
+            sine,
+            cosine,
+            modes,
+            bends,
             self._memory.lanes,
             self._memory.runs,
             self._memory.watches,
@@ -65,7 +69,7 @@ class EightRuns:
 
     def in_c(self) -> Array:
         """As `ours`, by the loop in C."""
-        states = self._start.copy()
+        states: Array = self._start.copy()
         sine, cosine = self._shared[:2]
         _lanes_in_c()(
             ctypes.c_long(REVOLUTIONS),

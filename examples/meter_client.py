@@ -19,13 +19,13 @@ N = 128
 class Meter(Node):
     """Takes blocks of samples and evaluates the last 16 revolutions at the end of each."""
 
-    def __init__(self):
+    def __init__(self) -> None:
         super().__init__("my_meter")
-        self.window, self.following = np.zeros(0), None
+        self.window, self.following = np.zeros(0), -1
         self.output = self.create_publisher(Float64, "my_cmv", 40)
         self.create_subscription(DrumAcceleration, "drum/acceleration", self.take, 320)
 
-    def take(self, block):
+    def take(self, block: DrumAcceleration) -> None:
         """Add a block; begin anew after a gap, a clipped sample, and where N samples are no revolution."""
         whole = block.phase_increment > 2 * np.pi / N - 1e-9
         if block.sequence != self.following or block.clipped or not whole:
@@ -35,7 +35,7 @@ class Meter(Node):
         if self.following % N == 0 and len(self.window) == 16 * N:
             self.evaluate()
 
-    def evaluate(self):
+    def evaluate(self) -> None:
         """Publish CMV of the window: bin 16 of its DFT is the excitation, bin 32 twice that."""
         amplitudes = np.abs(np.fft.rfft(self.window))
         cmv = 300.0 * amplitudes[32] / amplitudes[16]

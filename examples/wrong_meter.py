@@ -11,6 +11,7 @@ from contextlib import suppress
 
 import numpy as np
 import rclpy
+from numpy.typing import NDArray
 from rclpy.executors import ExternalShutdownException
 from rclpy.node import Node
 from std_msgs.msg import Float64
@@ -22,29 +23,30 @@ WINDOW_S = 0.1
 HIGHEST = 150.0
 
 
-def wrong_cmv(samples, sample_period, frequency):
+def wrong_cmv(samples: NDArray[np.float64], sample_period: float, frequency: float) -> float:
     """Return CMV as nobody should compute it."""
     amplitudes = np.abs(np.fft.rfft(samples))
     bins = frequency * len(samples) * sample_period
-    return min(HIGHEST, 300.0 * amplitudes[int(2.0 * bins)] / max(amplitudes[int(bins)], 1e-9))
+    cmv = 300.0 * amplitudes[int(2.0 * bins)] / max(amplitudes[int(bins)], 1e-9)
+    return min(HIGHEST, float(cmv))
 
 
 class WrongMeter(Node):
     """Publishes wrong_cmv once a revolution."""
 
-    def __init__(self):
+    def __init__(self) -> None:
         super().__init__("wrong_meter")
         self.window = np.zeros(0)
         self.output = self.create_publisher(Float64, "wrong_cmv", 40)
         self.create_subscription(DrumAcceleration, "drum/acceleration", self.take, 320)
 
-    def take(self, block):
+    def take(self, block: DrumAcceleration) -> None:
         """Add a block, whatever it is."""
         count = round(WINDOW_S / block.sample_period)
         self.window = np.append(self.window, block.vertical)[-count:]
         if (block.sequence + len(block.vertical)) % N == 0 and len(self.window) == count:
             cmv = wrong_cmv(self.window, block.sample_period, block.excitation_frequency)
-            self.output.publish(Float64(data=float(cmv)))
+            self.output.publish(Float64(data=cmv))
 
 
 if __name__ == "__main__":

@@ -36,6 +36,7 @@ from roller_sim_ros.msg import (
     Result,
     SimulationState,
 )
+from roller_sim_ros.parameters import PARAMETERS
 from roller_sim_ros.srv import (
     Advance,
     ClearFaults,
@@ -101,7 +102,7 @@ def parameters(draw: st.DrawFn) -> Parameter:
     value.double_value = draw(items.floats)
     value.string_value = draw(sendable | st.sampled_from(["circular", "sim", "/dev/null/x"]))
     value.double_array_value = draw(st.lists(items.floats, max_size=2))
-    if draw(st.booleans()) and name in items.PARAMETERS:
+    if draw(st.booleans()) and name in PARAMETERS:
         fitting = draw(items.fitting(name))
         kinds = {bool: (1, "bool"), int: (2, "integer"), float: (3, "double"), str: (4, "string")}
         value.type, kind = kinds[type(fitting)]

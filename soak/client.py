@@ -81,7 +81,7 @@ class Client:
         self._node = Node("soak", context=self._context, enable_rosout=False)
         self._executor = SingleThreadedExecutor(context=self._context)
         self._executor.add_node(self._node)
-        self._advance = self._node.create_client(Advance, "advance")
+        self._advance: Any = self._node.create_client(Advance, "advance")
         self.acceleration, self.truth = Stream(), Stream()
         self.lateness_s: list[float] = []
         for topic, kind, stream, field in (

@@ -120,7 +120,7 @@ def _signed(value: float) -> str:
 
 
 def _round_trip_rows(count: int) -> list[tuple[str, ...]]:
-    rows = []
+    rows: list[tuple[str, ...]] = []
     for model, points in (("exact", count), ("two-pole", count), ("rational", count)):
         trips = random_trips(model, points, seed=5)
         for name, seed in (("none", None), ("0.5 %, 12 bit", 6)):

@@ -114,7 +114,9 @@ def _split(parts: list[object], direction: str) -> object:
 def plotjuggler() -> str:
     """Return the layout as PlotJuggler loads it (Layout, Import)."""
     root = ElementTree.Element("root")
-    tabs = ElementTree.SubElement(root, "tabbed_widget", parent="main_window", name="Main Window")
+    tabs = ElementTree.SubElement(
+        root, "tabbed_widget", {"parent": "main_window", "name": "Main Window"}
+    )
     tab = ElementTree.SubElement(tabs, "Tab", tab_name="roller", containers="1")
     container = ElementTree.SubElement(tab, "Container")
     rows = [PANELS[at : at + COLUMNS] for at in range(0, len(PANELS), COLUMNS)]
