@@ -1,16 +1,18 @@
 """Runs a scenario with a meter beside it and judges the meter, as ``roller-sim bench`` does.
 
 As in ``ros2 launch roller_sim_ros bench.launch.py scenario:=soft_to_stiff meter:="ros2 run my_meters cmv"``. The
-launch ends with the bench; the verdict is on the screen and in ``score.xml`` and ``score.json`` of the folder ``out``.
+launch ends with the bench; the verdict is on the screen and in ``score.xml`` and ``score.json`` of the folder ``out``,
+beside the recording, and not in the exit code of ``ros2 launch``: that is for ``ros2 run roller_sim_ros bench``. Roller
+and meter are alone in a ROS domain of their own, so that there is no namespace to give; roller and ground are the
+scenario's, time is the roller's own unless ``clock:=real``.
 """
 
 from __future__ import annotations
 
-import sys
-
 from launch import LaunchContext, LaunchDescription
 from launch.actions import DeclareLaunchArgument, ExecuteProcess, OpaqueFunction, Shutdown
 from launch.substitutions import LaunchConfiguration
+from launch_ros.substitutions import ExecutableInPackage
 
 SCENARIO = "Scenario file, or the name of one that the package brings."
 
@@ -33,10 +35,13 @@ def _bench(context: LaunchContext) -> list[ExecuteProcess]:
         return LaunchConfiguration(name).perform(context)
 
     flags = [word for name in FLAGS if given(name) for word in (f"--{name}", given(name))]
-    command = [sys.executable, "-m", "roller_sim_ros.commands", "bench", given("scenario"), *flags]
+    # Not a Node, whose --ros-args are for one node: the bench starts several.
+    program = ExecutableInPackage(package="roller_sim_ros", executable="bench")
     return [
         ExecuteProcess(
-            cmd=command, output="screen", on_exit=[Shutdown(reason="the bench has ended")]
+            cmd=[program, given("scenario"), *flags],
+            output="screen",
+            on_exit=[Shutdown(reason="the bench has ended")],
         )
     ]
 

@@ -36,10 +36,7 @@ def _both(context: LaunchContext) -> list[IncludeLaunchDescription | Node]:
     def given(name: str) -> str:
         return LaunchConfiguration(name).perform(context)
 
-    simulated = given("use_sim_time").lower() in ("true", "1")
-    roller = {name: given(name) for name in ROLLER}
-    if simulated:
-        roller["clock"] = "sim"
+    roller = {name: given(name) for name in (*ROLLER, "use_sim_time")}
     flags = [word for name in PAGE if given(name) for word in (f"--{name}", given(name))]
     return [
         IncludeLaunchDescription(
@@ -50,7 +47,7 @@ def _both(context: LaunchContext) -> list[IncludeLaunchDescription | Node]:
             package="roller_sim_ros",
             executable="panel",
             namespace=given("namespace"),
-            parameters=[{"use_sim_time": simulated}],
+            parameters=[{"use_sim_time": given("use_sim_time") in ("true", "True")}],
             arguments=flags,
             output="screen",
         ),
@@ -73,6 +70,7 @@ def generate_launch_description() -> LaunchDescription:
                 "use_sim_time",
                 default_value="false",
                 description="Whether time is the roller's own, on /clock, for roller and page.",
+                choices=["true", "false", "True", "False"],
             ),
             OpaqueFunction(function=_both),
         ]

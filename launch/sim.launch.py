@@ -5,6 +5,8 @@ As in ``ros2 launch roller_sim_ros sim.launch.py namespace:=roller_1 record:=tra
 
 from __future__ import annotations
 
+from pathlib import Path
+
 from launch import LaunchContext, LaunchDescription
 from launch.actions import DeclareLaunchArgument, OpaqueFunction
 from launch.substitutions import LaunchConfiguration
@@ -17,6 +19,8 @@ FLAGS = {
     "speed": "Simulated over real time, 0: as fast as possible; with clock:=sim.",
 }
 """Arguments that are flags of ``roller-sim sim`` with a value."""
+
+YES_OR_NO = ["true", "false", "True", "False"]
 
 SWITCHES = {
     "lock_step": "Whether time stands still until a client steps it.",
@@ -32,13 +36,18 @@ def _roller(context: LaunchContext) -> list[Node]:
         return LaunchConfiguration(name).perform(context)
 
     def yes(name: str) -> bool:
-        return given(name).lower() in ("true", "1")
+        return given(name) in ("true", "True")
 
     parameters: list[str | dict[str, bool]] = []
     if given("params_file"):
+        # Of a file that is not there, launch only warns, and starts the node without it.
+        if not Path(given("params_file")).is_file():
+            raise RuntimeError(f"params_file:={given('params_file')}: there is no such file")
         parameters.append(given("params_file"))
     parameters.append({"autostart": yes("autostart")})
     flags = [word for name in FLAGS if given(name) for word in (f"--{name}", given(name))]
+    if yes("use_sim_time") and not given("clock"):
+        flags += ["--clock", "sim"]
     switches = [f"--{name.replace('_', '-')}" for name in SWITCHES if yes(name)]
     return [
         Node(
@@ -71,13 +80,22 @@ def generate_launch_description() -> LaunchDescription:
                 for name, text in FLAGS.items()
             ),
             *(
-                DeclareLaunchArgument(name, default_value="false", description=text)
+                DeclareLaunchArgument(
+                    name, default_value="false", description=text, choices=YES_OR_NO
+                )
                 for name, text in SWITCHES.items()
+            ),
+            DeclareLaunchArgument(
+                "use_sim_time",
+                default_value="false",
+                description="Whether time is the roller's own, on /clock; the same as clock:=sim.",
+                choices=YES_OR_NO,
             ),
             DeclareLaunchArgument(
                 "autostart",
                 default_value="true",
                 description="Whether the node configures and activates itself.",
+                choices=YES_OR_NO,
             ),
             OpaqueFunction(function=_roller),
         ]

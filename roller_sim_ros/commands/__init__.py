@@ -32,8 +32,24 @@ COMMANDS = {
 }
 """The commands and a line on each."""
 
-# Modules that only a ROS 2 installation has; a missing one is the user's set-up, not a defect.
-_ROS_MODULES = ("rclpy", "roller_sim_ros.msg")
+# Modules that only a ROS 2 installation has, and those that are generated there; a missing one is the user's set-up,
+# not a defect.
+_ROS_MODULES = (
+    "builtin_interfaces",
+    "diagnostic_msgs",
+    "geometry_msgs",
+    "lifecycle_msgs",
+    "nav_msgs",
+    "rcl_interfaces",
+    "rclpy",
+    "roller_sim_ros.msg",
+    "roller_sim_ros.srv",
+    "rosgraph_msgs",
+    "rosidl_runtime_py",
+    "sensor_msgs",
+    "std_msgs",
+    "std_srvs",
+)
 
 
 def main(argv: list[str] | None = None) -> int:
@@ -80,7 +96,11 @@ def _call(command: str, arguments: list[str]) -> int:
         missing = error.name or ""
         if not any(missing == name or missing.startswith(f"{name}.") for name in _ROS_MODULES):
             raise
-        return _fail(command, f"needs ROS 2, which is not installed here: {error}")
+        return _fail(
+            command,
+            "needs ROS 2 and this package's messages, which pip does not bring: make setup in a clone of the "
+            f"repository brings both, colcon build the messages for a ROS 2 that is there ({error})",
+        )
     except KeyboardInterrupt:
         return 130
     except BrokenPipeError:
