@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import signal
 from pathlib import Path
 
 from roller_sim_ros.commands.parser import command_parser
@@ -12,7 +13,7 @@ from roller_sim_ros.errors import RollerSimError
 DESCRIPTION = """\
 Write a report on a trace: one HTML file that needs nothing else, with the run's facts, modes, CMV and RMV over time
 and along the lane, for each mode that lasted acceleration, spectrum, force loop and orbit, gaps, faults, changes, and
-the verdict on a meter if one is named. Print it from the browser for a PDF.
+the verdict on a meter if one is named. With --pdf the same is printed, by the Chromium or Chrome that is installed.
 
 TRACE is an MCAP file or a rosbag2 folder of MCAP files.
 """
@@ -21,6 +22,7 @@ EPILOG = """\
 examples:
   roller-sim report trace.mcap -o report.html
   roller-sim report trace.mcap -o report.html --meter /my_meter/cmv
+  roller-sim report trace.mcap -o report.html --pdf           # and report.pdf
 """
 
 
@@ -40,16 +42,33 @@ def main(argv: list[str] | None = None) -> int:
     Raises
     ------
     RollerSimError
-        If the trace cannot be read, or the report not be written.
+        If the trace cannot be read, or the report not be written or printed.
     """
     arguments = _parser().parse_args(argv)
+    # As after Ctrl-C, the browser is ended too, and nothing half written stays.
+    before = signal.signal(signal.SIGTERM, _interrupt)
+    try:
+        return _report(arguments)
+    finally:
+        signal.signal(signal.SIGTERM, before)
+
+
+def _interrupt(*_: object) -> None:
+    raise KeyboardInterrupt
+
+
+def _report(arguments: argparse.Namespace) -> int:
     # What takes long to import comes after --help.
+    from roller_sim_ros.report.files import write
     from roller_sim_ros.report.page import page
+    from roller_sim_ros.report.pdf import find_browser, write_pdf
     from roller_sim_ros.report.run_record import read_run
     from roller_sim_ros.report.windows import read_windows
 
-    if not arguments.output.parent.is_dir():
-        raise RollerSimError(f"{arguments.output}: cannot be written: there is no such folder")
+    output: Path = arguments.output
+    pdf: Path | None = output.with_suffix(".pdf") if arguments.pdf is True else arguments.pdf
+    _check(output, pdf)
+    browser = None if pdf is None else find_browser()
     show = progress("reading", always=arguments.progress)
     record = read_run(arguments.trace, arguments.topic, lambda share: show(0.8 * share))
     windows = read_windows(record, lambda share: show(0.8 + 0.2 * share))
@@ -59,16 +78,28 @@ def main(argv: list[str] | None = None) -> int:
         from roller_sim_ros.score.score import Options, score
 
         verdict = as_object(score(arguments.trace, Options(topic=arguments.meter)))
-    try:
-        arguments.output.write_text(page(record, windows, verdict), encoding="utf-8")
-    except OSError as error:
-        raise RollerSimError(
-            f"{arguments.output}: cannot be written: {error.strerror or error}"
-        ) from None
-    print(f"wrote {arguments.output}: {record.duration_s:.1f} s, {record.samples} samples")
+    text = page(record, windows, verdict)
+    write(text, output)
+    print(f"wrote {output}: {record.duration_s:.1f} s, {record.samples} samples", flush=True)
+    if pdf is not None and browser is not None:
+        write_pdf(text, pdf, browser)
+        print(f"wrote {pdf}")
     if record.damage:
         raise RollerSimError(record.damage)
     return 0
+
+
+def _check(output: Path, pdf: Path | None) -> None:
+    """Refuse what cannot be written before the trace is read, which may take long."""
+    if output.suffix.lower() == ".pdf":
+        raise RollerSimError(f"{output}: -o names the HTML page; name the PDF with --pdf {output}")
+    if pdf == output:
+        raise RollerSimError(f"{output}: named by both -o and --pdf; name another for one of them")
+    for path in filter(None, (output, pdf)):
+        if not path.parent.is_dir():
+            raise RollerSimError(f"{path}: cannot be written: there is no such folder")
+        if path.is_dir():
+            raise RollerSimError(f"{path}: cannot be written: it is a folder")
 
 
 def _parser() -> argparse.ArgumentParser:
@@ -81,6 +112,14 @@ def _parser() -> argparse.ArgumentParser:
         type=Path,
         default=Path("report.html"),
         help="what to write (default: %(default)s)",
+    )
+    parser.add_argument(
+        "--pdf",
+        metavar="FILE",
+        type=Path,
+        nargs="?",
+        const=True,
+        help="print it as well (default: the name of the page with .pdf)",
     )
     parser.add_argument(
         "--topic",

@@ -36,7 +36,12 @@ from roller_sim_ros.report.windows import Window
 POINTS = 1600
 """Points of a line: more than a page has pixels."""
 
-SHOWN_REVOLUTIONS = 8
+SHOWN = 8 * SAMPLES_PER_REVOLUTION
+"""Samples of a window that are drawn over time and as loops."""
+
+RED = "#b3362b"
+
+NO_TRUTH = "the trace holds no truth here"
 
 _NUMBERS = count()
 
@@ -83,7 +88,8 @@ def over_chainage(record: RunRecord) -> str:
     def draw(figure: Figure) -> None:
         cmv, ground = figure.subplots(2, 1, sharex=True, height_ratios=[1.5, 1.0])
         passes = np.unique(site["pass_number"])
-        shades = mpl.colormaps["viridis_r"](np.linspace(0.15, 1.0, len(passes)))
+        # The last pass is the darkest; the palest are not to be seen on white.
+        shades = mpl.colormaps["viridis_r"](np.linspace(1.0, 0.25, len(passes))[::-1])
         for number, shade in zip(passes, shades, strict=True):
             of_pass = site["pass_number"] == number
             chainage, values = site["chainage"][of_pass], site["cmv"][of_pass]
@@ -99,49 +105,58 @@ def over_chainage(record: RunRecord) -> str:
     return svg(draw, 9.0, 4.2)
 
 
-def of_window(window: Window) -> str:
-    """Draw acceleration, spectrum, force loop and orbit of a window."""
+def of_window(window: Window) -> list[str]:
+    """Draw acceleration, spectrum, force loop and orbit of a window, each by itself."""
+    height, sinking_m = None, 0.0
+    if window.truth:
+        height, sinking_m = without_sinking(window.truth["drum_height"])
+    less = f", less the sinking of {sinking_m * 1e3:.2g} mm a revolution"
+    less = less if sinking_m > 1e-5 else ""
 
-    def draw(figure: Figure) -> None:
-        panels = figure.subplots(2, 2)
-        shown = SHOWN_REVOLUTIONS * SAMPLES_PER_REVOLUTION
-        turns = np.arange(shown) / SAMPLES_PER_REVOLUTION
+    def acceleration(axes: Axes) -> None:
+        turns = np.arange(SHOWN) / SAMPLES_PER_REVOLUTION
         state = window.truth.get("contact_state")
         draw_acceleration(
-            panels[0, 0],
+            axes,
             turns,
-            window.vertical[-shown:],
-            None if state is None else state[-shown:].astype(np.uint8),
+            window.vertical[-SHOWN:],
+            None if state is None else state[-SHOWN:].astype(np.uint8),
         )
-        shaded = "" if state is None else " (shaded: in the air)"
-        panels[0, 0].set_title(f"Vertical acceleration{shaded}")
-        panels[0, 0].set_xlabel("revolutions of the eccentric")
-        draw_spectrum(panels[0, 1], window.vertical, SAMPLES_PER_REVOLUTION)
-        panels[0, 1].set_title("Spectrum in orders; dots: what CMV and RMV use")
-        panels[1, 0].set_title("Soil force against displacement")
-        panels[1, 1].set_title("Orbit of the drum's axle")
-        if window.truth:
-            height, sinking_m = without_sinking(window.truth["drum_height"])
-            draw_force(panels[1, 0], height[-shown:], window.truth["soil_force"][-shown:])
-            _draw_orbit(panels[1, 1], window, height, shown)
-            if sinking_m > 1e-5:
-                less = f", less the sinking of {sinking_m * 1e3:.2g} mm a revolution"
-                panels[1, 0].set_title(f"Soil force{less}")
-                panels[1, 1].set_title(f"Orbit of the axle{less}")
+        axes.set_title("Vertical acceleration" + ("" if state is None else " (shaded: in the air)"))
+        axes.set_xlabel("revolutions of the eccentric")
+
+    def spectrum(axes: Axes) -> None:
+        draw_spectrum(axes, window.vertical, SAMPLES_PER_REVOLUTION)
+        axes.set_title("Spectrum in orders; dots: what the meters use")
+
+    def force(axes: Axes) -> None:
+        axes.set_title(f"Soil force{less or ' against displacement'}")
+        if height is None:
+            say_nothing(axes, NO_TRUTH)
         else:
-            say_nothing(panels[1, 0], "the trace holds no truth here")
-            say_nothing(panels[1, 1], "the trace holds no truth here")
+            draw_force(axes, height[-SHOWN:], window.truth["soil_force"][-SHOWN:])
 
-    return svg(draw, 9.0, 6.2)
+    def orbit(axes: Axes) -> None:
+        axes.set_title(f"Orbit of the axle{less}")
+        if height is None:
+            say_nothing(axes, NO_TRUTH)
+        else:
+            _draw_orbit(axes, window, height)
+
+    return [_panel(draw) for draw in (acceleration, spectrum, force, orbit)]
 
 
-def _draw_orbit(axes: Axes, window: Window, height: NDArray[np.float64], shown: int) -> None:
+def _panel(draw: Callable[[Axes], None]) -> str:
+    return svg(lambda figure: draw(figure.subplots()), 4.5, 2.75)
+
+
+def _draw_orbit(axes: Axes, window: Window, height: NDArray[np.float64]) -> None:
     if window.excitation_hz <= 0.0:
         say_nothing(axes, "the eccentric stands")
         return
     rate_hz = SAMPLES_PER_REVOLUTION * window.excitation_hz
     horizontal = twice_integrated(window.truth["horizontal"], rate_hz)
-    axes.plot(horizontal[-shown:] * 1e3, (height[-shown:] - height.mean()) * 1e3, color=BLUE)
+    axes.plot(horizontal[-SHOWN:] * 1e3, (height[-SHOWN:] - height.mean()) * 1e3, color=BLUE)
     axes.set_aspect("equal", adjustable="datalim")
     axes.set_xlabel("forward, mm")
     axes.set_ylabel("up, mm")
@@ -196,8 +211,8 @@ def _draw_meters(axes: Axes, record: RunRecord) -> None:
 
 def _draw_envelope(axes: Axes, record: RunRecord) -> None:
     time_s, low, high = (record.envelope[name] for name in ("time_s", "low", "high"))
-    # At least a revolution each.
-    bins = max(1, min(POINTS, record.samples // SAMPLES_PER_REVOLUTION, len(time_s)))
+    # At least two revolutions each: of a double jump, one is unlike the next.
+    bins = max(1, min(POINTS, record.samples // (2 * SAMPLES_PER_REVOLUTION), len(time_s)))
     edges = np.linspace(0, len(time_s), bins + 1).astype(np.int64)[:-1]
     axes.fill_between(
         time_s[edges],
@@ -206,8 +221,14 @@ def _draw_envelope(axes: Axes, record: RunRecord) -> None:
         color=BLUE,
         linewidth=0,
     )
-    for gap in record.gaps[:200]:
-        axes.axvline(gap.time_s, color="#b3362b", linewidth=0.6)
+    if record.gaps:
+        # At the top, or they would cover what is around them; no two at one place.
+        place = np.array([gap.time_s for gap in record.gaps]) / record.duration_s
+        place = np.unique(np.round(place * POINTS)) / POINTS * record.duration_s
+        line = axes.get_xaxis_transform()
+        axes.plot(place, np.ones(len(place)), "|", color=RED, label="gap", transform=line)
+        axes.legend(loc="upper right", bbox_to_anchor=(1.0, 0.97))
+        axes.margins(y=0.15)
     axes.axhline(0.0, color=LIGHT, linewidth=0.5)
     axes.set_ylabel("acceleration, g,\nleast to greatest")
 
@@ -224,7 +245,8 @@ def _draw_excitation(axes: Axes, record: RunRecord) -> None:
         values = record.exciter["amplitude"] * 1e3
         beside.plot(*_thinned(record.exciter["time_s"], values), color=ORANGE)
         beside.set_ylabel("amplitude, mm", color=ORANGE)
-        beside.set_ylim(bottom=0.0, top=1.1 * max(0.1, float(np.nanmax(values))))
+        # Not the part of the height that the frequency has, or one line would hide the other.
+        beside.set_ylim(bottom=0.0, top=1.4 * max(0.1, float(np.nanmax(values))))
 
 
 def _thinned(

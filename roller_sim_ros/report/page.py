@@ -20,19 +20,42 @@ MOST_ROWS = 100
 """Rows of a table that are shown; how many there are more is said."""
 
 STYLE = """\
-:root { color-scheme: light dark; }
+:root { color-scheme: light dark; --bad: #c0392b; --good: #2c7a4b; }
 body { font: 15px/1.5 system-ui, sans-serif; max-width: 68rem; margin: 2rem auto; padding: 0 1rem; }
 h1 { font-size: 1.5rem; margin-bottom: 0; } h2 { font-size: 1.15rem; margin-top: 2.2rem; }
-.lead { color: GrayText; margin-top: .2rem; }
+.lead { opacity: .7; margin-top: .2rem; }
 table { border-collapse: collapse; font-variant-numeric: tabular-nums; }
 th, td { text-align: left; padding: .15rem 1.2rem .15rem 0; vertical-align: top; }
-th { font-weight: 600; } td.number { text-align: right; }
-figure { margin: 1rem 0; background: #fff; border-radius: 6px; padding: .5rem; overflow-x: auto; }
-figure svg { width: 100%; height: auto; min-width: 34rem; }
-.scroll { overflow-x: auto; } .pass { color: #2c7a4b; } .fail { color: #c0392b; font-weight: 600; }
-.warn { border-left: 4px solid #c0392b; padding-left: .8rem; }
-details { margin: .6rem 0; } pre { overflow-x: auto; }
-@media print { body { max-width: none; margin: 0; } details { display: none; } figure { break-inside: avoid; } }
+th { font-weight: 600; }
+figure { margin: 1rem 0; overflow-x: auto; }
+figure svg { display: block; width: 100%; height: auto; min-width: 44rem; }
+.panels { display: grid; grid-template-columns: repeat(auto-fit, minmax(min(22rem, 100%), 1fr)); gap: .5rem 1rem; }
+.panels svg { min-width: 0; }
+.scroll { overflow-x: auto; } .pass { color: var(--good); } .fail { color: var(--bad); font-weight: 600; }
+.warn { border-left: 4px solid var(--bad); padding-left: .8rem; }
+details { margin: .6rem 0; } summary { cursor: pointer; } pre { overflow-x: auto; }
+@media screen and (prefers-color-scheme: dark) {
+  :root { --bad: #ff8a7a; --good: #7fce9c; }
+  /* White becomes the dark of the page, and a hue remains what it is. */
+  figure svg { filter: invert(.93) hue-rotate(180deg); }
+}
+@page {
+  size: A4; margin: 14mm 14mm 18mm;
+  @bottom-right { content: counter(page) " / " counter(pages); font: 8pt sans-serif; }
+}
+@media print {
+  :root { color-scheme: light; }
+  body { font-size: 9pt; line-height: 1.4; max-width: none; margin: 0; padding: 0; }
+  h1 { font-size: 15pt; margin-top: 0; } h2 { font-size: 11pt; margin: 5mm 0 1mm; }
+  h2, summary, thead { break-after: avoid; } section, tr { break-inside: avoid; }
+  figure { margin: 1mm 0; overflow: visible; } figure svg { min-width: 0; }
+  .panels { grid-template-columns: 1fr 1fr; gap: 1mm 3mm; }
+  .scroll, pre { overflow: visible; } pre { white-space: pre-wrap; }
+  details { font-size: 7.5pt; } details:not([open]) { display: none; }
+  details .scroll, .many .scroll { columns: 2; column-gap: 8mm; } .gaps .scroll { columns: 3; }
+  td + td, pre { overflow-wrap: anywhere; }
+  summary { font-size: 11pt; font-weight: bold; list-style: none; margin: 5mm 0 1mm; }
+}
 """
 
 
@@ -56,7 +79,7 @@ def page(
         f"<h1>{escape(title)}</h1>",
         (
             f'<p class="lead">{escape(record.path.name)}, {start:%Y-%m-%d %H:%M:%S} UTC, '
-            f"{record.duration_s:.1f} s</p>"
+            f"{record.duration_s:.1f} s; reported by roller_sim_ros {__version__}</p>"
         ),
     ]
     if record.damage:
@@ -64,27 +87,26 @@ def page(
     parts += ["<h2>Facts</h2>", _table((), _facts(record))]
     if score is not None:
         parts += _score(score)
-    parts += ["<h2>Over time</h2>", _figure(figures.over_time(record))]
+    parts.append(_section("Over time", f"<figure>{figures.over_time(record)}</figure>"))
     along = figures.over_chainage(record)
     if along:
-        parts += ["<h2>Along the lane</h2>", _figure(along)]
+        parts.append(_section("Along the lane", f"<figure>{along}</figure>"))
     for window in windows:
-        parts += [
-            f"<h2>{escape(window.mode.label.capitalize())}</h2>",
-            (
-                f"<p>{100.0 * window.share:.3g} % of the revolutions; here the 16 up to {window.time_s:.2f} s, "
-                f"{window.excitation_hz:.4g} Hz.</p>"
-            ),
-            _figure(figures.of_window(window)),
-        ]
-    parts += ["<h2>Gaps</h2>", _gaps(record), "<h2>Events</h2>", _events(record)]
+        text = (
+            f"<p>{100.0 * window.share:.3g} % of the revolutions; here the 16 up to {window.time_s:.2f} s, "
+            f"{window.excitation_hz:.4g} Hz.</p>"
+        )
+        panels = "\n".join(figures.of_window(window))
+        shown = f'{text}\n<figure class="panels">{panels}</figure>'
+        parts.append(_section(window.mode.label.capitalize(), shown))
+    parts += ["<h2>Gaps</h2>", f'<div class="many gaps">{_gaps(record)}</div>']
+    parts += ["<h2>Events</h2>", f'<div class="many">{_events(record)}</div>']
     parts += _parameters(record)
     body = "\n".join(parts)
     return (
         '<!DOCTYPE html>\n<html lang="en">\n<head>\n<meta charset="utf-8">\n'
         '<meta name="viewport" content="width=device-width, initial-scale=1">\n'
-        f"<title>{escape(title)}</title>\n<style>\n{STYLE}</style>\n</head>\n<body>\n{body}\n"
-        f'<p class="lead">roller_sim_ros {__version__}</p>\n</body>\n</html>\n'
+        f"<title>{escape(title)}</title>\n<style>\n{STYLE}</style>\n</head>\n<body>\n{body}\n</body>\n</html>\n"
     )
 
 
@@ -113,7 +135,9 @@ def _facts(record: RunRecord) -> list[tuple[str, str]]:
         modes = record.meter["mode"]
         shares = {mode: np.count_nonzero(modes == int(mode)) / len(modes) for mode in Mode}
         text = ", ".join(
-            f"{mode.label} {100.0 * share:.3g} %" for mode, share in shares.items() if share
+            f"{mode.label} {100.0 * share:.3g}\N{NO-BREAK SPACE}%"
+            for mode, share in shares.items()
+            if share
         )
         facts.append(("modes", text))
     if record.site:
@@ -181,15 +205,16 @@ def _parameters(record: RunRecord) -> list[str]:
     return parts
 
 
-def _figure(text: str) -> str:
-    return f"<figure>{text}</figure>"
+def _section(title: str, content: str) -> str:
+    return f"<section>\n<h2>{escape(title)}</h2>\n{content}\n</section>"
 
 
 def _table(head: Sequence[str], rows: Iterable[Sequence[str]], most: int = MOST_ROWS) -> str:
     rows = list(rows)
     lines = ['<div class="scroll"><table>']
     if head:
-        lines.append("<tr>" + "".join(f"<th>{escape(cell)}</th>" for cell in head) + "</tr>")
+        names = "".join(f"<th>{escape(name)}</th>" for name in head)
+        lines.append(f"<thead><tr>{names}</tr></thead>")
     for row in rows[:most]:
         first = "th" if not head else "td"
         cells = [f"<{first}>{escape(row[0])}</{first}>"]

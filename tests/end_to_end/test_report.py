@@ -198,12 +198,43 @@ def test_what_cannot_be_reported_is_said_in_a_line(
         ([str(tmp_path / "none.mcap")], "none.mcap"),
         ([str(trace), "--topic", "/nobody"], "on /nobody"),
         ([str(trace), "-o", str(tmp_path / "missing" / "page.html")], "cannot be written"),
+        ([str(trace), "-o", str(tmp_path)], "is a folder"),
+        ([str(trace), "-o", str(tmp_path / "page.pdf")], "--pdf"),
+        ([str(trace), "-o", str(tmp_path / "a"), "--pdf", str(tmp_path / "a")], "both"),
+        ([str(trace), "-o", str(tmp_path / "a"), "--pdf", str(tmp_path / "b" / "c")], "no such"),
     ):
         capsys.readouterr()
         assert commands.main(["report", *arguments]) == 1
         error = capsys.readouterr().err
         assert said in error
         assert error.count("\n") == 1
+
+
+def test_without_a_browser_there_is_no_pdf_and_a_way_out(
+    trace: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("PATH", str(tmp_path))
+    monkeypatch.delenv("CHROMIUM", raising=False)
+    page = tmp_path / "page.html"
+    assert commands.main(["report", str(trace), "-o", str(page), "--pdf"]) == 1
+    error = capsys.readouterr().err
+    assert "apt-get install chromium" in error
+    assert error.count("\n") == 1
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_ended_while_it_prints_it_leaves_nothing_half_done(
+    trace: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    browser, page = tmp_path / "browser", tmp_path / "out" / "page.html"
+    browser.write_text("#!/bin/sh\nkill -TERM $PPID\nexec sleep 600\n", encoding="utf-8")
+    browser.chmod(0o755)
+    page.parent.mkdir()
+    monkeypatch.setenv("CHROMIUM", str(browser))
+    monkeypatch.setattr("roller_sim_ros.report.page.page", lambda *_: "<p>drawn elsewhere")
+    assert commands.main(["report", str(trace), "-o", str(page), "--pdf"]) == 130
+    assert list(page.parent.iterdir()) == [page]
+    assert page.read_text(encoding="utf-8") == "<p>drawn elsewhere"
 
 
 def test_displacement_is_the_acceleration_integrated_twice() -> None:
