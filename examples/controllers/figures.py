@@ -1,6 +1,6 @@
-"""The figures and the table of docs/controllers.md: each controller in a scenario, and the scenario without one.
+"""The figures and the tables of docs/controllers.md: each controller in a scenario, and the scenario without one.
 
-python -m examples.controllers.figures --write            # docs/figures/controller_*.png, and the table of the page
+python -m examples.controllers.figures --write            # docs/figures/controller_*.png, and the tables of the page
 python -m examples.controllers.figures --only jump_guard --scenario soft_to_stiff --seed 7 --frequency-hz 30
 """
 
@@ -29,6 +29,7 @@ from tools.sections import write_section
 
 PAGE = Path(__file__).resolve().parents[2] / "docs" / "controllers.md"
 SCENARIO = "soft_to_stiff"
+GUARD_HZ = (25.0, 28.0, 32.0)
 
 LAWS: dict[str, Callable[[], Law]] = {
     "jump_guard": JumpGuard,
@@ -90,15 +91,39 @@ def _range(values: NDArray[np.float64]) -> str:
 
 def row(name: str, site_map: SiteMap) -> tuple[str, ...]:
     """Return what came out as a row of the table."""
-    jumps = jumping(site_map.mode, site_map.rmv)
     known = np.isfinite(site_map.force_ratio_max)
     return (
         name,
-        f"{100.0 * jumps.mean():.1f} %",
-        f"{1e3 * site_map.amplitude_m.mean():.2f} mm",
+        _jumps(site_map),
+        _mean_amplitude(site_map),
         f"{_range(site_map.frequency_hz)} Hz",
         f"{site_map.force_ratio_max[known].max():.1f}",
     )
+
+
+def guard_row(scenario: Scenario) -> tuple[str, ...]:
+    """Return what the jump guard does at one frequency, beside the best constant amplitude."""
+    under = drive(scenario, JumpGuard())
+    return (
+        f"{scenario.exciter.frequency_hz:.0f} Hz",
+        _jumps(alone(scenario)),
+        _jumps(under),
+        _mean_amplitude(under),
+        f"{best_constant_mm(scenario):.2f} mm",
+    )
+
+
+def _jumps(site_map: SiteMap) -> str:
+    return f"{100.0 * jumping(site_map.mode, site_map.rmv).mean():.1f} %"
+
+
+def _mean_amplitude(site_map: SiteMap) -> str:
+    return f"{1e3 * site_map.amplitude_m.mean():.2f} mm"
+
+
+def at_frequency(scenario: Scenario, frequency_hz: float) -> Scenario:
+    """Return the scenario at another frequency, Hz."""
+    return replace(scenario, exciter=replace(scenario.exciter, frequency_hz=frequency_hz))
 
 
 def main() -> None:
@@ -118,7 +143,9 @@ def main() -> None:
         "--frequency-hz", type=float, help="another frequency, Hz, than the scenario's"
     )
     parser.add_argument(
-        "--write", action="store_true", help=f"put the table into {PAGE.parent.name}/{PAGE.name}"
+        "--write",
+        action="store_true",
+        help=f"put the table, and that of the jump guard's frequencies, into {PAGE.parent.name}/{PAGE.name}",
     )
     arguments = parser.parse_args()
     others = (arguments.only, arguments.seed, arguments.frequency_hz)
@@ -130,8 +157,7 @@ def main() -> None:
     if arguments.seed is not None:
         scenario = replace(scenario, seed=arguments.seed)
     if arguments.frequency_hz is not None:
-        exciter = replace(scenario.exciter, frequency_hz=arguments.frequency_hz)
-        scenario = replace(scenario, exciter=exciter)
+        scenario = at_frequency(scenario, arguments.frequency_hz)
     arguments.out.mkdir(parents=True, exist_ok=True)
     without = alone(scenario)
     print(f"largest constant amplitude that never jumps: {best_constant_mm(scenario):.2f} mm")
@@ -145,6 +171,15 @@ def main() -> None:
     print(text)
     if arguments.write:
         write_section(PAGE, "controllers", text)
+        head = (
+            "",
+            "double jump without",
+            "with",
+            "mean amplitude",
+            "largest constant without jump",
+        )
+        rows = [guard_row(at_frequency(scenario, frequency_hz)) for frequency_hz in GUARD_HZ]
+        write_section(PAGE, "jump_guard", table(head, rows))
 
 
 if __name__ == "__main__":

@@ -36,7 +36,7 @@ def test_only_the_part_is_written(tmp_path: Path) -> None:
     ("page", "names"),
     [
         ("benchmarks", tuple(BENCHMARKS)),
-        ("controllers", ("controllers",)),
+        ("controllers", ("controllers", "jump_guard")),
         ("estimate", ("round trip", "bias")),
         ("robustness", ("fuzz", "soak")),
     ],
