@@ -1,4 +1,4 @@
-# make setup | sim | demo | test | check | bench | fuzz | soak | docs | clean
+# make setup | sim | demo | test | check | wheel | bench | fuzz | soak | docs | clean
 #
 # Everything goes into .venv and build; nothing needs sourcing.
 
@@ -20,7 +20,7 @@ ifdef ROS_DISTRO
 unexport LD_LIBRARY_PATH
 endif
 
-.PHONY: setup sim demo chromium screenshots test check bench fuzz soak docs site clean
+.PHONY: setup sim demo chromium screenshots test check wheel bench fuzz soak docs site clean
 
 setup:
 	@tools/setup.sh
@@ -65,6 +65,11 @@ check: setup
 	@$(VENV)/ruff format --check --quiet .
 	@$(VENV)/mypy --no-error-summary
 	@NO_MKDOCS_2_WARNING=1 $(VENV)/mkdocs build --quiet
+
+# The wheel, into dist/, tried in a fresh environment without ROS: what it requires comes by pip, kernels are compiled.
+# `test` tries it with links and without compiling.
+wheel: setup
+	@ROLLER_SIM_WHEEL_TO="$(CURDIR)/dist" $(PYTEST) --timeout=1800 tests/end_to_end/test_wheel.py
 
 bench: setup
 	@exec $(VENV)/python -m benchmarks $(ARGS)

@@ -25,6 +25,8 @@ setup(
     name=NAME,
     version=package.findtext("version"),
     description="A vibratory soil-compaction roller for ROS 2: its sensors, emulated",
+    long_description=(ROOT / "README.md").read_text(encoding="utf-8"),
+    long_description_content_type="text/markdown",
     license=package.findtext("license"),
     python_requires=">=3.10",
     packages=find_packages(include=[NAME, f"{NAME}.*"]),
