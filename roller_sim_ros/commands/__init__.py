@@ -23,7 +23,7 @@ COMMANDS = {
     "analyze": "evaluate a trace: gaps, meter values, plot and CSV",
     "score": "judge a compaction meter by the truth beside it in a trace",
     "bench": "run a scenario with a compaction meter beside it, and judge the meter",
-    "report": "write a trace as one HTML page to look at",
+    "report": "write a trace as one page to look at, HTML and PDF",
     "export": "write a trace as CSV, Parquet, MATLAB, sound or a map",
     "fmu": "write the roller as a functional mock-up unit (FMI)",
     "play": "republish a trace over ROS 2 at its original pace",
