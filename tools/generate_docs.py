@@ -99,7 +99,7 @@ def readme_sections() -> dict[str, str]:
             f"`{name}`",
             _value_text(default),
             quantity.unit,
-            "live" if quantity.live else "",
+            "live" if quantity.changes else "",
             quantity.doc,
         )
         for name, (quantity, default) in PARAMETERS.items()
@@ -123,7 +123,8 @@ def parameters_page() -> str:
         f"Generated {GENERATED} in `roller_sim_ros/parameters/`.",
         "",
         "ROS 2 parameters and YAML files have the dotted names and SI units. **Live** ones change while the roller",
-        "runs, at the next multiple of 128 samples; the others are read-only while it is active. Flags of",
+        "runs, at the next multiple of 128 samples, those of the recording between two blocks; the others are read-only",
+        "while it is active. Flags of",
         "`roller-sim sim` and `roller-sim run` are in the unit that their name ends in.",
     ]
     for group, declaration in GROUPS.items():
@@ -133,7 +134,7 @@ def parameters_page() -> str:
                 _value_text(default),
                 quantity.unit,
                 _bounds(quantity, default),
-                "live" if quantity.live else "",
+                "live" if quantity.changes else "",
                 f"`{quantity.flag}` ({_flag_default(quantity, default)})" if quantity.flag else "",
                 quantity.doc,
             )

@@ -336,6 +336,14 @@ class Emulator:
             self._refusal_told = False
             self._note(InputKind.REFUSE, code=int(code), reason=reason)
 
+    def tell_all_again(self) -> None:
+        """Let the next blocks say what is else said on change only, for a trace that begins with them."""
+        with self._lock:
+            self._status = None
+            self._configuration_told = None
+            self._facts = {}
+            self.instruments.tell_again()
+
     def note_restored(self, state: bytes) -> None:
         """Let ``inputs`` say that the run goes on from a saved state, so that a trace from here on can be replayed.
 

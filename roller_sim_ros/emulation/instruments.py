@@ -69,6 +69,10 @@ class Instruments:
             self._delivery.put(reading, effects, now_s, now_sample)
         return self._delivery.due(now_s, now_sample)
 
+    def tell_again(self) -> None:
+        """Let the faults be told once more, though they have not changed."""
+        self._told = None
+
     def messages(self, block: Block, start_ns: int) -> list[Message]:
         """Return what the other sensors deliver in the same block, and the faults where they change.
 

@@ -44,6 +44,10 @@ class Beginning:
         said = {name: value for name, value in self.configuration.flat().items() if _is_said(name)}
         return Beginning(configuration.changed(said), self.scenario)
 
+    def with_recording(self, values: Mapping[str, Value]) -> Beginning:
+        """Return the beginning with other parameters of the recording."""
+        return Beginning(self.configuration.changed(values), self.scenario)
+
     def emulator(self, start_ns: int) -> Emulator:
         """Return the roller at the start, its first sample stamped with `start_ns`.
 

@@ -76,6 +76,7 @@ class Outlet:
 
     def send(self, messages: Iterable[Message]) -> None:
         """Publish messages, in order, and hand them to the recording; what nobody would get is only recorded."""
+        trace = self.trace
         for message in messages:
             publisher = self.publishers[message.topic]
             try:
@@ -84,9 +85,9 @@ class Outlet:
             except RuntimeError:
                 # The middleware gives up where a reader or the machine is too slow for it.
                 self.unsent += 1
-            if self.trace is not None:
+            if trace is not None:
                 now_ns = self._now_ns()
-                self.trace.put(self._names[message.topic], message.data, now_ns, now_ns)
+                trace.put(self._names[message.topic], message.data, now_ns, now_ns)
 
     def announce(self, message: Message) -> None:
         """Publish again what was published before, if its topic is open; it is not recorded again."""

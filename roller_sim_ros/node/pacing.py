@@ -4,10 +4,19 @@ from __future__ import annotations
 
 import threading
 import time
+from collections import deque
+from collections.abc import Callable
+from concurrent.futures import Future, wait
+from typing import Any, TypeVar
 
 from roller_sim_ros.node.lateness import Lateness
 from roller_sim_ros.node.realtime import precise_sleeps, request_realtime
 from roller_sim_ros.node.run import Run
+
+T = TypeVar("T")
+
+LOOK_S = 0.1
+"""How often who waits for the thread looks whether it is still there."""
 
 
 class Pacer:
@@ -49,6 +58,7 @@ class Pacer:
         self._started = threading.Event()
         self._playing = threading.Event()
         self._parked = threading.Event()
+        self._acts: deque[tuple[Callable[[], Any], Future[Any]]] = deque()
         self._thread = threading.Thread(target=self._main, name="pacing", daemon=True)
 
     @property
@@ -71,6 +81,22 @@ class Pacer:
         """Wait until the block under way is out and the thread leaves the run alone."""
         self._playing.clear()
         self._parked.wait()
+
+    def between_blocks(self, act: Callable[[], T]) -> T:
+        """Do something while no block is under way, and return or raise what comes of it.
+
+        While time goes on by itself the pacing thread does it, and is later with its next block.
+        """
+        if not self.playing:
+            self._parked.wait()
+            return act()
+        future: Future[T] = Future()
+        self._acts.append((act, future))
+        while not wait([future], LOOK_S).done:
+            # It may have parked, or ended, without a look at what waits.
+            if self._parked.is_set() and future.cancel():
+                return act()
+        return future.result()
 
     def stop_playing(self) -> None:
         """Pause after the block under way, without waiting for it: for the thread itself."""
@@ -116,9 +142,21 @@ class Pacer:
             now_s = monotonic() - start
             run.send(messages)
             note(now_s - due_s, len(block) * period_s / speed)
+            if self._acts:
+                self._act()
 
     def _hurry(self) -> None:
         run, stopping, playing = self.run, self._stopping.is_set, self._playing.is_set
         while playing() and not stopping():
             _, messages = run.compute()
             run.send(messages)
+            if self._acts:
+                self._act()
+
+    def _act(self) -> None:
+        act, future = self._acts.popleft()
+        if future.set_running_or_notify_cancel():
+            try:
+                future.set_result(act())
+            except Exception as error:  # noqa: BLE001 - who waits for it gets it
+                future.set_exception(error)

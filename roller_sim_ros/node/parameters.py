@@ -75,7 +75,7 @@ def _declare(node: Node, name: str, value: Any, descriptor: ParameterDescriptor)
 
 def _descriptor(quantity: Quantity, default: Value) -> ParameterDescriptor:
     unit = f" [{quantity.unit}]" if quantity.unit else ""
-    when = "may change at any time" if quantity.live else "read-only while the roller is active"
+    when = "may change at any time" if quantity.changes else "read-only while the roller is active"
     bounds = "" if isinstance(default, bool) else f"{quantity.bounds_text()}; "
     descriptor = ParameterDescriptor(
         description=f"{quantity.doc}{unit}", additional_constraints=f"{bounds}{when}"

@@ -69,7 +69,7 @@ class Recording:
     node : rclpy.node.Node
         The node.
     outlet : Outlet
-        Its topics are registered, and it hands its bytes over from now on.
+        Whose topics are registered; it hands its bytes over once it is attached.
     commands : mapping
         {resolved name: topic} of the commands that are handed over by `put_command`.
     configuration : Configuration
@@ -125,7 +125,7 @@ class Recording:
         )
         names = [name.strip() for name in self.parameters.topics.split(",") if name.strip()]
         self._asked = dict.fromkeys(node.resolve_topic_name(name) for name in names)
-        self.attach(outlet)
+        self._register(outlet)
         for name, topic in commands.items():
             register(self.trace, name, topic.type_name, topic.qos(configuration.pacing))
         events = topics.PARAMETER_EVENTS
@@ -136,12 +136,8 @@ class Recording:
         self.look_for_topics()
 
     def attach(self, outlet: Outlet) -> None:
-        """Let an outlet hand its bytes over."""
-        for topic in topics.TOPICS:
-            publisher = outlet.publishers.get(topic.name)
-            if publisher is not None:
-                qos = row(publisher.qos_profile)
-                register(self.trace, publisher.topic_name, topic.type_name, qos)
+        """Let an outlet hand its bytes over from now on."""
+        self._register(outlet)
         outlet.imu_recorded = outlet.publishers[topics.IMU.name].topic_name in self._asked
         outlet.trace = self.trace
 
@@ -178,6 +174,13 @@ class Recording:
             self._node.destroy_subscription(subscription)
         self._subscriptions.clear()
         self.trace.close(timeout_s)
+
+    def _register(self, outlet: Outlet) -> None:
+        for topic in topics.TOPICS:
+            publisher = outlet.publishers.get(topic.name)
+            if publisher is not None:
+                qos = row(publisher.qos_profile)
+                register(self.trace, publisher.topic_name, topic.type_name, qos)
 
     def _record(self, name: str, type_name: str, qos: Qos) -> None:
         message_class = message_type(type_name)

@@ -5,12 +5,13 @@ from __future__ import annotations
 import gc
 import math
 import time
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
+from typing import TypeVar
 
 import numpy as np
 from rclpy.node import Node
 
-from roller_sim_ros.emulation import Emulator
+from roller_sim_ros.emulation import Emulator, snapshot
 from roller_sim_ros.errors import RollerSimError
 from roller_sim_ros.node.beginning import Beginning
 from roller_sim_ros.node.inputs import Inputs, standing, upcoming
@@ -25,6 +26,8 @@ from roller_sim_ros.parameters import PARAMETERS, Configuration, ParameterError,
 from roller_sim_ros.scenario import Scenario
 from roller_sim_ros.session import Refusal
 from roller_sim_ros.wire import messages, topics
+
+T = TypeVar("T")
 
 
 class Roller:
@@ -243,9 +246,17 @@ class Roller:
         """
         if self._pacer is not None:
             for name, value in values.items():
-                if not PARAMETERS[name][0].live:
+                if not PARAMETERS[name][0].changes:
                     raise ParameterError(
                         name, value, "cannot change while the roller is active; deactivate it first"
+                    )
+        recorded_to = self._configuration.recording.path
+        if self._prepared is not None and recorded_to and "recording.path" not in values:
+            for name, value in values.items():
+                if PARAMETERS[name][0].of_node and value != self._configuration.flat()[name]:
+                    raise ParameterError(
+                        *(name, value),
+                        f"cannot change while {recorded_to} is recorded to; set recording.path, too, or first to none",
                     )
         for name, value in values.items():
             if name == "scenario.path" and value != self._configuration.scenario.path:
@@ -262,9 +273,18 @@ class Roller:
         """
         configuration = self.check(values)
         try_out(configuration)
-        self.inputs.change(values)
+        recording = {name: value for name, value in values.items() if PARAMETERS[name][0].of_node}
+        if recording:
+            self._record(recording)
+        roller = {name: value for name, value in values.items() if name not in recording}
+        if roller:
+            self.inputs.change(roller)
         if self._pacer is None:
             self._configuration = configuration
+
+    def between_blocks(self, act: Callable[[], T]) -> T:
+        """Do something while no block is under way, and return what comes of it."""
+        return self._pacer.between_blocks(act) if self._pacer else act()
 
     def watch(self) -> None:
         """Look after what goes on by itself: watchdogs, topics that are to be recorded, ``/clock``."""
@@ -341,6 +361,28 @@ class Roller:
         for line in pacer.realtime:
             self._node.get_logger().info(f"real time: {line}")
 
+    def _record(self, values: Mapping[str, Value]) -> None:
+        """Take other parameters of the recording, and end it or begin another if topics are open."""
+        begins = self._beginning.with_recording(values)
+        if self._prepared is not None and begins != self._beginning:
+            now = begins.with_parameters(self.configuration.changed(values))
+            try:
+                self._station.record(now, self.between_blocks, self._begin_trace)
+            except RollerSimError as error:
+                path = now.configuration.recording.path
+                raise ParameterError("recording.path", path, str(error)) from error
+        self._beginning = begins
+        self._configuration = self._configuration.changed(values)
+
+    def _begin_trace(self) -> bool:
+        """Let a trace that begins in the middle of a run begin with its state; return whether there is a run."""
+        if self._pacer is None:
+            return False
+        emulator = self._pacer.run.emulator
+        emulator.tell_all_again()
+        emulator.note_restored(snapshot.save(emulator))
+        return True
+
     def _on_end(self) -> None:
         if self.stop_at_end and self._pacer is not None:
             self._pacer.stop_playing()
@@ -372,7 +414,7 @@ _OF_THE_NODE = ("pacing.", "recording.", "scenario.")
 def _structure(configuration: Configuration) -> dict[str, Value]:
     """Return the parameters that cannot change while the roller runs."""
     flat = configuration.flat()
-    return {name: value for name, value in flat.items() if not PARAMETERS[name][0].live}
+    return {name: value for name, value in flat.items() if not PARAMETERS[name][0].changes}
 
 
 def _drive(emulator: Emulator, scenario: Scenario | None) -> Drive | None:

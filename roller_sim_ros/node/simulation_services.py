@@ -219,7 +219,8 @@ class SimulationServices:
 
     def _save(self, request: Any, response: Any) -> None:
         run = self._running()
-        state = self._between_blocks(lambda: snapshot.save(run.emulator))
+        # A block that is computed and not yet out would be lost to the state.
+        state = self._roller.between_blocks(lambda: snapshot.save(run.emulator))
         if not request.path:
             response.state = state
             return
@@ -299,17 +300,6 @@ class SimulationServices:
             ) from error
         if not whole and not run.ended:
             raise Refused(Result.RESULT_OPERATION_FAILED, "the process is ending")
-
-    def _between_blocks(self, act: Callable[[], bytes]) -> bytes:
-        """Act while no block is under way: one that is computed and not yet out would be lost to the state."""
-        playing = self._roller.playing
-        if playing and self._roller.simulated_time:
-            self._roller.pause()
-        try:
-            return act()
-        finally:
-            if playing and self._roller.simulated_time:
-                self._roller.play()
 
 
 def _answering(act: Callable[[Any, Any], None]) -> Callable[[Any, Any], Any]:

@@ -84,6 +84,40 @@ class Station:
         self._open_recording(beginning)
         return self.outlet
 
+    def record(
+        self, beginning: Beginning, between_blocks: Callable[..., None], begin: Callable[[], bool]
+    ) -> None:
+        """Record to the file that the parameters name from now on, or to none.
+
+        Parameters
+        ----------
+        beginning : Beginning
+            With these parameters.
+        between_blocks : callable
+            Does what it is given while nothing is sent.
+        begin : callable
+            Called then, before the first message goes to a new file; returns whether a run goes on.
+
+        Raises
+        ------
+        RollerSimError
+            If it cannot be begun; all is as before then.
+        """
+        assert self.outlet is not None  # topics are open
+        outlet, before = self.outlet, self._recording
+        path = beginning.configuration.recording.path
+        after = self._recording_of(beginning, path) if path else None
+
+        def turn() -> None:
+            outlet.trace = None
+            if after is not None:
+                after.used = begin()
+                after.attach(outlet)
+
+        between_blocks(turn)
+        self._recording, self._recordings = after, int(self._simulated)
+        self._finish(before)
+
     def begin_run(self, beginning: Beginning) -> None:
         """Make ready for a run that begins: in simulated time every one has a recording of its own.
 
@@ -143,12 +177,10 @@ class Station:
 
     def close_recording(self) -> None:
         """Finish the recording."""
-        if self._recording is not None:
-            recording, self._recording = self._recording, None
-            if self.outlet is not None:
-                self.outlet.trace = None
-            recording.close(CLOSE_SIMULATED_S if self._simulated else CLOSE_S)
-            self.last_recording = recording.report()
+        if self.outlet is not None:
+            self.outlet.trace = None
+        recording, self._recording = self._recording, None
+        self._finish(recording)
 
     def close_topics(self) -> None:
         """Close the topics; the recording stays."""
@@ -160,6 +192,11 @@ class Station:
             self.outlet.destroy()
             self.outlet = None
             self._unsent = 0
+
+    def _finish(self, recording: Recording | None) -> None:
+        if recording is not None:
+            recording.close(CLOSE_SIMULATED_S if self._simulated else CLOSE_S)
+            self.last_recording = recording.report()
 
     def _subscribe(
         self,
@@ -190,23 +227,28 @@ class Station:
     def _open_recording(self, beginning: Beginning) -> None:
         """Begin the recording that the parameters ask for, or go on with the one that is open."""
         assert self.outlet is not None  # the caller opened it
-        configuration = beginning.configuration
-        wanted = configuration.recording
+        wanted = beginning.configuration.recording
         if self._recording is not None and self._recording.parameters == wanted:
             self._recording.attach(self.outlet)
             return
         self.close_recording()
         if wanted.path:
-            self._recording = Recording(
-                self._node,
-                self.outlet,
-                self._commands,
-                configuration,
-                beginning.metadata(self._now_ns()),
-                _numbered(wanted.path, self._recordings),
-                self._now_ns if self._simulated else None,
-            )
+            path = _numbered(wanted.path, self._recordings)
+            self._recording = self._recording_of(beginning, path)
+            self._recording.attach(self.outlet)
             self._recordings += self._simulated
+
+    def _recording_of(self, beginning: Beginning, path: str) -> Recording:
+        assert self.outlet is not None  # the caller opened it
+        return Recording(
+            self._node,
+            self.outlet,
+            self._commands,
+            beginning.configuration,
+            beginning.metadata(self._now_ns()),
+            path,
+            self._now_ns if self._simulated else None,
+        )
 
 
 def _numbered(path: str, before: int) -> str:

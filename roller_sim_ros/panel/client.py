@@ -10,8 +10,6 @@ from dataclasses import replace
 from typing import Any
 
 import rclpy
-from lifecycle_msgs.msg import State, Transition
-from lifecycle_msgs.srv import ChangeState, GetState
 from rcl_interfaces.srv import DescribeParameters, SetParametersAtomically
 from rclpy.context import Context
 from rclpy.executors import SingleThreadedExecutor
@@ -97,8 +95,6 @@ class Client:
             "release": Trigger,
             f"{roller}/set_parameters_atomically": SetParametersAtomically,
             f"{roller}/describe_parameters": DescribeParameters,
-            f"{roller}/get_state": GetState,
-            f"{roller}/change_state": ChangeState,
         }
         self._services: dict[str, Any] = {
             name.rpartition("/")[2]: self._node.create_client(kind, name)
@@ -172,28 +168,8 @@ class Client:
         self._done(await self._call("release"))
 
     async def record(self, path: str) -> None:
-        """Record to a file from the start of a new run on, or with an empty path to none.
-
-        The node's recording cannot change while the roller is active: it is deactivated, and activated again.
-        """
-        state = (await self._call("get_state")).current_state
-        active = state.id == State.PRIMARY_STATE_ACTIVE
-        if active:
-            await self._change_state(Transition.TRANSITION_DEACTIVATE)
-        try:
-            await self.set_parameters({"recording.path": path})
-            if active:
-                await self._change_state(Transition.TRANSITION_ACTIVATE)
-        except RollerSimError as error:
-            if active:
-                await self.set_parameters({"recording.path": ""})
-                await self._change_state(Transition.TRANSITION_ACTIVATE)
-            raise RollerSimError(f"recording to {path or 'no file'}: {error}") from None
-
-    async def _change_state(self, transition: int) -> None:
-        request = Transition(id=transition)
-        if not (await self._call("change_state", transition=request)).success:
-            raise RollerSimError(f"{self.roller} refuses the transition; its log says why")
+        """Record to a file from the next block on, or with an empty path to none."""
+        await self.set_parameters({"recording.path": path})
 
     async def _call(self, name: str, **fields: Any) -> Any:
         client = self._services[name]

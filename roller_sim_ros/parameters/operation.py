@@ -168,11 +168,14 @@ class Recording(ParameterGroup):
 
     group: ClassVar[str] = "recording"
 
-    path: str = parameter("", "", "MCAP file to record to; empty: no recording", flag="--record")
+    path: str = parameter(
+        "", "", "MCAP file to record to; empty: no recording", of_node=True, flag="--record"
+    )
     topics: str = parameter(
         "",
         "",
         "further topics to record, separated by commas (a meter under test; drum/imu)",
+        of_node=True,
     )
     flush_period_s: float = parameter(
         0.5,
@@ -180,4 +183,5 @@ class Recording(ParameterGroup):
         "an open chunk is written to disk at least this often",
         minimum=0.05,
         maximum=1.0,
+        of_node=True,
     )

@@ -74,6 +74,8 @@ class Quantity:
         The allowed texts; empty when any is allowed.
     live : bool
         Whether it may change while the roller runs (at the next multiple of 128 samples).
+    of_node : bool
+        Whether the node may change it then, between two blocks; the roller itself knows nothing of it.
     flag : str
         Command-line flag in engineering units, ``""`` when there is none.
     scale : float
@@ -88,9 +90,15 @@ class Quantity:
     maximum: float | None = None
     choices: tuple[str, ...] = ()
     live: bool = False
+    of_node: bool = False
     flag: str = ""
     scale: float = 1.0
     flag_unit: str = ""
+
+    @property
+    def changes(self) -> bool:
+        """Whether the node takes another value while the roller runs."""
+        return self.live or self.of_node
 
     def bounds_text(self) -> str:
         """Return the bounds as a reader wants them, in SI units."""

@@ -15,9 +15,15 @@ from PIL import Image
 from playwright.sync_api import Page, expect
 
 from roller_sim_ros.meters.mode import Mode
-from roller_sim_ros.msg import AppliedChange, CompactionMeter, ExciterState, FaultStates
+from roller_sim_ros.msg import (
+    AppliedChange,
+    CompactionMeter,
+    DrumSoilState,
+    ExciterState,
+    FaultStates,
+)
 from roller_sim_ros.traces.reader import TraceReader
-from tests.integration.harness import PATIENCE_S, Client, entry
+from tests.integration.harness import PATIENCE_S, Client, entry, recorded
 
 ROOT = Path(__file__).resolve().parents[2]
 LARGEST_BYTES = 200_000
@@ -192,9 +198,14 @@ def test_a_recording_is_begun_and_ended(page: Page, client: Client, roller) -> N
     page.locator("#record").click()
     expect(page.locator("#record")).to_have_attribute("aria-pressed", "false")
     expect(page.locator("#recording-says")).to_have_text("nothing is recorded")
+    truth = client.listen("truth", DrumSoilState)
+    client.spin_until(lambda: truth)
     client.listen_no_more()
     (trace,) = roller.folder.glob("panel_*.mcap")
     assert TraceReader(trace).topics["/drum/acceleration"].messages > 0
+    # The roller went on meanwhile.
+    blocks = recorded(trace, "/truth")
+    assert 0 < blocks[0].sequence < blocks[-1].sequence < truth[-1].sequence
     live(page)
 
 

@@ -14,7 +14,7 @@ from roller_sim_ros.msg import AppliedChange, DrumSoilState
 from roller_sim_ros.parameters import PARAMETERS
 
 LIVE = {name: item for name, item in PARAMETERS.items() if item[0].live}
-STRUCTURAL = [name for name in PARAMETERS if name not in LIVE]
+STRUCTURAL = [name for name, item in PARAMETERS.items() if not item[0].changes]
 
 
 def test_descriptors_are_those_of_the_declarations(visitor):
@@ -22,7 +22,7 @@ def test_descriptors_are_those_of_the_declarations(visitor):
         descriptor = visitor.describe_parameter(name)
         assert quantity.doc in descriptor.description
         assert quantity.unit in descriptor.description
-        assert ("read-only" in descriptor.additional_constraints) != quantity.live
+        assert ("read-only" in descriptor.additional_constraints) != quantity.changes
         if isinstance(default, bool):
             assert descriptor.type == ParameterType.PARAMETER_BOOL
         elif isinstance(default, str):
@@ -44,7 +44,7 @@ def bad_values(name: str) -> list[object]:
     if isinstance(default, bool):
         return [1, "yes"]
     if isinstance(default, str):
-        return [5, "rubbish"]
+        return [5] if quantity.of_node else [5, "rubbish"]
     below = quantity.minimum - max(1.0, abs(quantity.minimum))
     above = quantity.maximum * 2.0 + 1.0
     if isinstance(default, int):
@@ -67,6 +67,14 @@ def test_bad_value_is_refused_with_the_reason(visitor, name):
             assert f"{bound:g} {quantity.unit}".strip() in result.reason
     assert visitor.get_parameter(name) == before
     assert applied == []
+
+
+def test_recording_to_where_nothing_can_be_written_is_refused(visitor, tmp_path):
+    path = str(tmp_path / "nowhere" / "trace.mcap")
+    result = visitor.set_parameter("recording.path", path)
+    assert not result.successful
+    assert f"recording.path = {path!r}" in result.reason
+    assert visitor.get_parameter("recording.path") == ""
 
 
 @pytest.mark.parametrize("name", STRUCTURAL)

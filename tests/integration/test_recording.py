@@ -13,13 +13,21 @@ from rcl_interfaces.msg import ParameterEvent
 from std_msgs.msg import Float64
 
 from roller_sim_ros import __version__
-from roller_sim_ros.msg import AppliedChange, CompactionMeter, ExciterState
+from roller_sim_ros.msg import (
+    AppliedChange,
+    CompactionMeter,
+    DrumSoilState,
+    ExciterState,
+    Result,
+)
+from roller_sim_ros.offline.replay import replay
 from roller_sim_ros.parameters import GRAVITY_M_S2
+from roller_sim_ros.srv import ResetSimulation
 from roller_sim_ros.traces.metadata import PARAMETERS as PARAMETER_RECORD
 from roller_sim_ros.traces.metadata import RUN
 from roller_sim_ros.traces.reader import TraceReader
 from roller_sim_ros.wire.topics import TOPICS
-from tests.integration.harness import entry, recorded
+from tests.integration.harness import entry, recorded, values
 
 
 def changed_parameters(events) -> dict[str, float]:
@@ -127,6 +135,68 @@ def test_acceleration_by_the_sample_is_recorded_when_asked_for(start, client, tm
     assert len(samples) > 3 * 128 / 4
     found = [sample.linear_acceleration.z for sample in samples]
     assert found == pytest.approx(vertical[::4][: len(found)] + GRAVITY_M_S2, rel=1e-6)
+
+
+def test_recordings_begin_and_end_while_the_roller_goes_on(start, client, tmp_path):
+    sim = start("--shear-modulus-mpa", "60")
+    blocks = client.listen("truth", DrumSoilState)
+    diagnostics = client.listen("/diagnostics", DiagnosticArray)
+    client.spin_until(lambda: len(blocks) > 400)
+    client.command(frequency=27.0, amplitude=1.2e-3)
+    assert client.set_parameter("soil.shear_modulus_pa", 70e6).successful
+    bags = [tmp_path / f"{name}.mcap" for name in ("first", "second")]
+    for bag in bags:
+        assert client.set_parameter("recording.path", str(bag)).successful
+        assert client.get_parameter("recording.path") == str(bag)
+        came = len(blocks)
+        client.spin_until(lambda came=came: len(blocks) > came + 300)
+        refused = client.set_parameter("recording.flush_period_s", 0.2)
+        assert f"cannot change while {bag} is recorded to" in refused.reason
+    refused = client.set_parameter("recording.path", str(bags[0]))
+    assert "there already is such a file" in refused.reason
+    client.spin_until(
+        lambda: (found := entry(diagnostics, "recording")) and values(found)["path"] == str(bags[1])
+    )
+    assert client.set_parameter("recording.path", "").successful
+    client.spin_until(
+        lambda: (
+            (found := entry(diagnostics, "recording")) and found.message == "nothing is recorded"
+        )
+    )
+    assert sim.end() == 0
+    sequences = [block.sequence for block in blocks]
+    assert sequences == list(range(sequences[0], sequences[-1] + 1, 16))
+
+    follows = 0
+    for bag in bags:
+        reader = TraceReader(bag)
+        assert reader.whole
+        truth = recorded(bag, "/truth")
+        assert truth[0].sequence >= max(follows, 400 * 16 - 128)
+        assert len(truth) >= 290
+        follows = truth[-1].sequence + 16
+        for name in ("/machine", "/soil", "/faults", "/exciter/state"):
+            assert reader.topics[name].messages > 0
+        assert reader.metadata[PARAMETER_RECORD]["soil.shear_modulus_pa"] == "70000000.0"
+        (run,) = (found := replay(bag)).runs
+        assert found.difference is None
+        assert run.first_sample == truth[0].sequence
+        assert run.lost == 0
+
+
+def test_in_lock_step_a_recording_begins_between_two_steps(start, client, tmp_path):
+    sim = start("--lock-step")
+    client.advance(revolutions=3)
+    bag = tmp_path / "trace.mcap"
+    assert client.set_parameter("recording.path", str(bag)).successful
+    client.advance(revolutions=2)
+    assert client.ask(ResetSimulation, "reset_simulation").result.result == Result.RESULT_OK
+    client.advance(revolutions=1)
+    assert sim.end() == 0
+    for name, begins, samples in (("trace", 3 * 128, 2 * 128), ("trace-2", 0, 128)):
+        (run,) = (found := replay(bag.with_stem(name))).runs
+        assert found.difference is None
+        assert (run.first_sample, run.samples) == (begins, samples)
 
 
 def test_type_without_definition_is_reported_not_fatal(start, client, tmp_path):
