@@ -29,8 +29,9 @@ th, td { text-align: left; padding: .15rem 1.2rem .15rem 0; vertical-align: top;
 th { font-weight: 600; }
 figure { margin: 1rem 0; overflow-x: auto; }
 figure svg { display: block; width: 100%; height: auto; min-width: 44rem; }
-.panels { display: grid; grid-template-columns: repeat(auto-fit, minmax(min(22rem, 100%), 1fr)); gap: .5rem 1rem; }
+.panels { display: grid; grid-template-columns: repeat(2, minmax(0, 1fr)); gap: .5rem 1rem; }
 .panels svg { min-width: 0; }
+@media screen and (max-width: 44rem) { .panels { grid-template-columns: minmax(0, 1fr); } }
 .scroll { overflow-x: auto; } .pass { color: var(--good); } .fail { color: var(--bad); font-weight: 600; }
 .warn { border-left: 4px solid var(--bad); padding-left: .8rem; }
 details { margin: .6rem 0; } summary { cursor: pointer; } pre { overflow-x: auto; }
@@ -49,8 +50,8 @@ details { margin: .6rem 0; } summary { cursor: pointer; } pre { overflow-x: auto
   h1 { font-size: 15pt; margin-top: 0; } h2 { font-size: 11pt; margin: 5mm 0 1mm; }
   h2, summary, thead { break-after: avoid; } section, tr { break-inside: avoid; }
   figure { margin: 1mm 0; overflow: visible; } figure svg { min-width: 0; }
-  .panels { grid-template-columns: 1fr 1fr; gap: 1mm 3mm; }
-  .scroll, pre { overflow: visible; } pre { white-space: pre-wrap; }
+  .panels { gap: 1mm 3mm; }
+  .scroll, pre { overflow: visible; } pre { font-size: 6.8pt; white-space: pre-wrap; }
   details { font-size: 7.5pt; } details:not([open]) { display: none; }
   details .scroll, .many .scroll { columns: 2; column-gap: 8mm; } .gaps .scroll { columns: 3; }
   td + td, pre { overflow-wrap: anywhere; }
@@ -79,7 +80,7 @@ def page(
         f"<h1>{escape(title)}</h1>",
         (
             f'<p class="lead">{escape(record.path.name)}, {start:%Y-%m-%d %H:%M:%S} UTC, '
-            f"{record.duration_s:.1f} s; reported by roller_sim_ros {__version__}</p>"
+            f"{record.duration_s:.1f}\N{NO-BREAK SPACE}s; reported by roller_sim_ros {__version__}</p>"
         ),
     ]
     if record.damage:
