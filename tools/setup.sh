@@ -89,7 +89,7 @@ else
 fi
 environment_key=$(hash_of "$root $wanted")
 packages_key=$(hash_of "$environment_key" requirements)
-messages_key=$(hash_of "$packages_key" CMakeLists.txt package.xml msg srv cmake config launch scenarios security)
+messages_key=$(hash_of "$packages_key" CMakeLists.txt package.xml msg srv cmake config launch layouts scenarios security)
 modules_key=$(hash_of "$packages_key" setup.py pyproject.toml package.xml)
 
 if done_before messages "$messages_key" && done_before modules "$modules_key" &&

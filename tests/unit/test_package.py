@@ -414,6 +414,19 @@ def test_dispatcher_refuses_what_it_does_not_know(
     assert "analyze" in capsys.readouterr().err
 
 
+def test_setup_installs_anew_what_changes() -> None:
+    # The folders that CMake installs are among those whose contents make the key of the stage.
+    cmake = (ROOT / "CMakeLists.txt").read_text(encoding="utf-8")
+    (line,) = re.findall(r"^install\(DIRECTORY ((?:\w+ ?)+)$", cmake, flags=re.MULTILINE)
+    setup = (ROOT / "tools" / "setup.sh").read_text(encoding="utf-8")
+    (key,) = re.findall(
+        r'^messages_key=\$\(hash_of "\$packages_key" ([^)]+)\)', setup, re.MULTILINE
+    )
+    folders = line.split()
+    assert len(folders) > 3
+    assert set(key.split()) >= {"CMakeLists.txt", "package.xml", "cmake", "msg", "srv", *folders}
+
+
 def test_nothing_generated_is_tracked() -> None:
     if not (ROOT / ".git").exists():
         return
