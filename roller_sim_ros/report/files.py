@@ -19,10 +19,12 @@ def replaced(path: Path) -> Iterator[Path]:
     Raises
     ------
     RollerSimError
-        If the file cannot be written.
+        If the file cannot be written, or what is there is a folder, a pipe or a device.
     """
     try:
         real = path.resolve()
+        if real.exists() and not real.is_file():
+            raise RollerSimError(f"{path}: cannot be written: it is no ordinary file; name another")
         # Not hidden: a browser that comes as a snap sees no hidden folder of the home folder.
         with tempfile.TemporaryDirectory(
             prefix=f"{real.name}.", suffix=".part", dir=real.parent

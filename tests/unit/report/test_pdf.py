@@ -111,6 +111,12 @@ def test_the_sandbox_is_left_out_only_where_there_can_be_none(
     assert [path.name for path in target.parent.iterdir()] == ["page.pdf"]
 
 
+def test_a_device_is_not_replaced(tmp_path: Path) -> None:
+    with pytest.raises(RollerSimError, match="/dev/null: cannot be written: it is no ordinary"):
+        pdf.write_pdf("<p>page</p>", Path("/dev/null"), browser(tmp_path, PRINTS))
+    assert Path("/dev/null").is_char_device()
+
+
 def test_folded_parts_are_printed_unfolded(target: Path, tmp_path: Path) -> None:
     script = f'for last; do :; done\ncp "${{last#file://}}" {tmp_path}/printed.html\n{PRINTS}'
     pdf.write_pdf("<details><summary>more</summary></details>", target, browser(tmp_path, script))
