@@ -22,6 +22,7 @@ from roller_sim_ros.meters.harmonics import HarmonicsWindow
 from roller_sim_ros.meters.order_tracking import OrderTracker
 from roller_sim_ros.meters.period import PeriodWindow
 from roller_sim_ros.meters.revolutions import RevolutionCollector
+from roller_sim_ros.meters.truth import TruthMeter
 from roller_sim_ros.parameters import SAMPLES_PER_REVOLUTION
 from roller_sim_ros.sensors.bandwidth import LowPass
 from roller_sim_ros.sensors.bias import GaussMarkov
@@ -106,7 +107,14 @@ def _check_period(window: PeriodWindow) -> None:
     _array(window, window._back, (candidates,), np.int64)
     _array(window, window._revolutions, (revolutions, N))
     _array(window, window._changes, (candidates, revolutions))
-    _array(window, window._extremes, (2, revolutions))
+    _array(window, window._extremes, (3, revolutions))
+
+
+def _check_truth(meter: TruthMeter) -> None:
+    window = meter.window_revolutions
+    _require(meter, type(meter._revolutions) is int and meter._revolutions >= 0)
+    _array(meter, meter._air, (window, N), np.bool_)
+    _array(meter, meter._forces, (window,))
 
 
 def _check_tracker(tracker: OrderTracker) -> None:
@@ -160,6 +168,7 @@ _CHECKS: dict[type[Any], Callable[[Any], None]] = {
     RevolutionCollector: _check_collector,
     HarmonicsWindow: _check_harmonics,
     PeriodWindow: _check_period,
+    TruthMeter: _check_truth,
     OrderTracker: _check_tracker,
     GaussMarkov: _check_drift,
     LowPass: _check_pair_of_states,

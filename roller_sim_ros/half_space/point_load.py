@@ -77,6 +77,12 @@ class PointLoad:
     rayleigh_amplitude: float
     body_roots: tuple[BodyWaveRoot, ...]
 
+    @functools.cached_property
+    def root_constants(self) -> ComplexArray:
+        """Return kappa_j^2 and A_j in rows, for kernels, shape (len(body_roots), 2)."""
+        rows = [(root.kappa_squared, root.amplitude) for root in self.body_roots]
+        return np.array(rows, dtype=np.complex128).reshape(-1, 2)
+
 
 def slowness_ratio_squared(poisson_ratio: float) -> float:
     """Return a^2 = (v_s/v_p)^2 = (1 - 2 nu)/(2 (1 - nu))."""

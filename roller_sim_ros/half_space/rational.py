@@ -42,8 +42,6 @@ class RationalHalfSpace:
     residues : ndarray of complex, shape (m,)
         r_j in the same unit, real where the pole is real; twice the residue where the pole stands for a
         conjugate pair. Read-only.
-    error : float
-        Largest |H_fit - H|/H0 in the band, from 400 frequencies.
     fit_seconds : float
         What the fit took.
     """
@@ -54,8 +52,17 @@ class RationalHalfSpace:
     highest_a0: float
     poles: ComplexArray
     residues: ComplexArray
-    error: float
     fit_seconds: float
+
+    @functools.cached_property
+    def error(self) -> float:
+        """Largest |H_fit - H|/H0 in the band, from 400 frequencies.
+
+        Found where it is asked for: that takes as long as a good part of the fit.
+        """
+        band = np.linspace(0.0, self.highest_a0, 400)
+        exact = normalised_compliance(band, self.aspect_ratio, self.poisson_ratio)
+        return float(np.abs(self.compliance(band) - exact).max())
 
     @property
     def dashpot(self) -> float:
@@ -155,7 +162,7 @@ def rational_compliance(
     return h0 * fit.compliance(np.asarray(omega, dtype=np.float64) * unit_time)
 
 
-@functools.lru_cache(maxsize=256)
+@functools.lru_cache(maxsize=4096)
 def _fit(
     aspect_ratio: float, poisson_ratio: float, order: int, highest_a0: float
 ) -> RationalHalfSpace:
@@ -164,9 +171,6 @@ def _fit(
     seconds = time.perf_counter() - begin
     for array in (poles, residues):
         array.flags.writeable = False
-    band = np.linspace(0.0, highest_a0, 400)
-    fitted = _evaluate(band, poles, residues)
-    error = np.abs(fitted - normalised_compliance(band, aspect_ratio, poisson_ratio)).max()
     return RationalHalfSpace(
         aspect_ratio=aspect_ratio,
         poisson_ratio=poisson_ratio,
@@ -174,7 +178,6 @@ def _fit(
         highest_a0=highest_a0,
         poles=poles,
         residues=residues,
-        error=float(error),
         fit_seconds=seconds,
     )
 

@@ -51,6 +51,11 @@ class Side:
         """Return sigma of d psi/du = sigma c/(2 u t), with u = r^2."""
         return 1.0 if self.grows else -1.0
 
+    @property
+    def constants(self) -> tuple[float, float, float, float, float]:
+        """Return c, b, sigma, mu and scale, for kernels."""
+        return self.distance, self.half_width, self.sense, self.edge, self.scale
+
     def tangent(self, u: FloatArray) -> FloatArray:
         """Return t at u = r^2: zero inside the circle that touches the side."""
         return np.sqrt(np.maximum(u - self.distance**2, 0.0))
@@ -65,17 +70,6 @@ class Side:
         t = self.tangent(u)
         parabola = 1.0 - u / (2.0 * self.half_width**2)
         return self.scale * (self.angle(t) * parabola + self.edge * t)
-
-    def weight_integrals(self, u: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """Return int_0^r m dr and int_0^r m r dr of this part, at u = r^2."""
-        c, b, sigma, mu = self.distance, self.half_width, self.sense, self.edge
-        r, t = np.sqrt(u), self.tangent(u)
-        psi, g = self.angle(t), np.arcsinh(t / c)
-        along = psi * r * (1.0 - u / (6.0 * b * b)) + 0.5 * mu * (r * t - c * c * g)
-        along -= sigma * c * (g - (r * t + c * c * g) / (12.0 * b * b))
-        n = t * (2.0 - (c * c / 3.0 + u / 6.0) / (b * b))
-        area = psi * u * (1.0 - u / (4.0 * b * b)) - 0.5 * sigma * c * n + 2.0 / 3.0 * mu * t**3
-        return self.scale * along, 0.5 * self.scale * area
 
 
 def sides(aspect_ratio: float) -> tuple[Side, Side]:

@@ -15,7 +15,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -27,8 +27,7 @@ METER_ORDERS = (0.5, 1.0, 2.0)
 """Orders that CMV and RMV need."""
 
 
-@dataclass(frozen=True)
-class Harmonics:
+class Harmonics(NamedTuple):
     """Complex amplitudes of the vertical acceleration at some orders of the excitation.
 
     Attributes
@@ -44,7 +43,7 @@ class Harmonics:
 
     def amplitude(self, order: float) -> float:
         """Return A_order = |C_order|, in m/s²."""
-        value = self.amplitudes[self.orders.index(order)]
+        value = self.amplitudes.item(self.orders.index(order))
         return math.hypot(value.real, value.imag)
 
     def phase(self, order: float) -> float:
@@ -129,10 +128,17 @@ class HarmonicsWindow:
         phase_rad : float
             Phase of the eccentric at the first sample.
         """
-        kernels.project(self._waves, np.ascontiguousarray(revolution), self._products)
         turns, row = self._turns_at(index, phase_rad)
         slot = self._next
-        kernels.keep(self._products, turns, row, self._sums, slot)
+        kernels.keep(
+            self._waves,
+            np.ascontiguousarray(revolution),
+            self._products,
+            turns,
+            row,
+            self._sums,
+            slot,
+        )
         self._next = (slot + 1) % self.window_revolutions
         self._held = min(self._held + 1, self.window_revolutions)
 

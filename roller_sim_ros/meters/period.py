@@ -81,7 +81,7 @@ class PeriodWindow:
         self._back = np.array([p for p in CANDIDATES if 2 * p <= window_revolutions], np.int64)
         self._revolutions = np.zeros((window_revolutions, samples_per_revolution))
         self._changes = np.zeros((len(self._back), window_revolutions))
-        self._extremes = np.zeros((2, window_revolutions))
+        self._extremes = np.zeros((3, window_revolutions))
         self._pushed = 0
 
     def clear(self) -> None:
@@ -126,7 +126,12 @@ class PeriodWindow:
             return None
         newest = (self._pushed - 1) % self.window_revolutions
         found = kernels.first_period(
-            self._revolutions, self._changes, self._extremes, newest, self._back, self.tolerance
+            self._changes,
+            self._extremes,
+            newest,
+            self._back,
+            self._revolutions.shape[1],
+            self.tolerance,
         )
         if found:
             return int(found)

@@ -35,8 +35,7 @@ class Timing(NamedTuple):
     phase_increment_rad: float
 
 
-@dataclass(frozen=True)
-class Revolution:
+class Revolution(NamedTuple):
     """N samples that begin at a multiple of N.
 
     Attributes
@@ -44,7 +43,7 @@ class Revolution:
     first_sample : int
         Index of the first sample.
     samples : ndarray, shape (channels, N)
-        The samples; overwritten when the next revolution is read.
+        The samples.
     excitation_hz : float
         Excitation frequency at the last sample.
     phase_rad : float
@@ -137,15 +136,20 @@ class RevolutionCollector:
             self._last_timing = timing
             self._advance = self._advance_of(timing)
         count = self._count
+        if start % count == 0 and end - start == count and start == first_sample:
+            # What comes most: a block that is a revolution.
+            self._begin(timing, phase_rad / self._step % count)
+            whole = np.empty(self._samples.shape)
+            for row, channel in zip(whole, samples, strict=True):
+                row[:] = channel
+            found.append(self._revolution(start, timing, whole))
+            start = end
         while start < end:
             offset = start % count
             stop = min(end, start - offset + count)
             phase = (phase_rad / self._step + (start - first_sample) * self._advance) % count
             if offset == 0:
-                self._whole = True
-                self._uniform = True
-                self._timing = timing
-                self._phase = round(phase * PHASE_GRID) / PHASE_GRID % count
+                self._begin(timing, phase)
             elif self._whole:
                 self._uniform = self._uniform and self._continues(timing, phase, offset)
             if self._whole:
@@ -154,10 +158,16 @@ class RevolutionCollector:
                         start - first_sample : stop - first_sample
                     ]
                 if stop % count == 0:
-                    found.append(self._revolution(stop - count, timing))
+                    found.append(self._revolution(stop - count, timing, self._samples.copy()))
             start = stop
         self._expected = end
         return found
+
+    def _begin(self, timing: Timing, phase: float) -> None:
+        self._whole = True
+        self._uniform = True
+        self._timing = timing
+        self._phase = round(phase * PHASE_GRID) / PHASE_GRID % self._count
 
     def _advance_of(self, timing: Timing) -> float:
         """Return the phase increment over that of N samples per revolution, exactly 1 when it is that."""
@@ -169,10 +179,12 @@ class RevolutionCollector:
         apart = (phase - self._phase - offset * self._advance) % self._count
         return timing == self._timing and min(apart, self._count - apart) < SAME_PHASE_SAMPLES
 
-    def _revolution(self, first_sample: int, timing: Timing) -> Revolution:
+    def _revolution(
+        self, first_sample: int, timing: Timing, samples: NDArray[np.float64]
+    ) -> Revolution:
         return Revolution(
             first_sample=first_sample,
-            samples=self._samples.copy(),
+            samples=samples,
             excitation_hz=timing.excitation_hz,
             phase_rad=self._phase * self._step,
             synchronous=self._uniform and self._advance == 1.0 and timing.excitation_hz > 0,

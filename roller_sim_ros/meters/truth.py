@@ -3,22 +3,21 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 
-from roller_sim_ros.meters.harmonics import HarmonicsWindow
+from roller_sim_ros.meters import kernels
+from roller_sim_ros.meters.harmonics import METER_ORDERS, HarmonicsWindow
 from roller_sim_ros.meters.mode import Mode, true_mode
 from roller_sim_ros.meters.period import TOLERANCE, PeriodWindow
-from roller_sim_ros.meters.registry import ORDERS, TRUE_METERS, evaluate
+from roller_sim_ros.meters.registry import TRUE_METERS, evaluate
 from roller_sim_ros.meters.revolutions import Revolution, RevolutionCollector, Timing
-from roller_sim_ros.meters.summary import blows
 from roller_sim_ros.parameters import SAMPLES_PER_REVOLUTION
 from roller_sim_ros.session.block import AIR, Block
 
 
-@dataclass(frozen=True)
-class TruthValue:
+class TruthValue(NamedTuple):
     """True values at the end of a revolution.
 
     Attributes
@@ -79,12 +78,13 @@ class TruthMeter:
         self._collector = RevolutionCollector(
             3, window_revolutions * samples_per_revolution, samples_per_revolution
         )
-        self._harmonics = HarmonicsWindow(window_revolutions, ORDERS, samples_per_revolution)
+        self._harmonics = HarmonicsWindow(window_revolutions, METER_ORDERS, samples_per_revolution)
         self._period = PeriodWindow(window_revolutions, samples_per_revolution, period_tolerance)
         self._forces = np.zeros(window_revolutions)
-        self._frequencies = np.zeros(window_revolutions)
-        self._air = np.zeros(window_revolutions * samples_per_revolution, dtype=np.bool_)
+        self._air = np.zeros((window_revolutions, samples_per_revolution), dtype=np.bool_)
         self._revolutions = 0
+        self._excitation_hz = 0.0
+        self._at_this_frequency = 0
 
     def feed(self, block: Block) -> TruthValue:
         """Take one block and return the values at the end of the last completed revolution."""
@@ -105,9 +105,13 @@ class TruthMeter:
         vertical, force, state = revolution.samples
         slot = self._revolutions % self.window_revolutions
         self._revolutions += 1
-        self._forces[slot] = force.max()
-        self._frequencies[slot] = revolution.excitation_hz
-        self._air = np.concatenate([self._air[self._samples_per_revolution :], state == AIR])
+        if revolution.excitation_hz != self._excitation_hz:
+            self._excitation_hz = revolution.excitation_hz
+            self._at_this_frequency = 0
+        self._at_this_frequency += 1
+        without_contact, greatest_n = kernels.note_contact(
+            force, state, AIR, slot, self._air, self._forces
+        )
         last_sample = revolution.first_sample + self._samples_per_revolution - 1
         if revolution.synchronous:
             index = revolution.first_sample // self._samples_per_revolution
@@ -118,15 +122,15 @@ class TruthMeter:
             self._period.clear()
         if self._revolutions < self.window_revolutions:
             return TruthValue(last_sample)
-        air_fraction = float(np.count_nonzero(self._air)) / len(self._air)
-        force_ratio_max = float(self._forces.max()) / self.static_load_n
+        air_fraction = without_contact / self._air.size
+        force_ratio_max = greatest_n / self.static_load_n
         if not self._harmonics.full:
             return TruthValue(
                 last_sample, air_fraction=air_fraction, force_ratio_max=force_ratio_max
             )
         harmonics = self._harmonics.harmonics()
         values = evaluate(harmonics, TRUE_METERS) if harmonics.amplitude(1.0) > 0.0 else {}
-        steady = self._frequencies.min() == self._frequencies.max()
+        steady = self._at_this_frequency >= self.window_revolutions
         period = self._period.period() if steady else None
         return TruthValue(
             last_sample=last_sample,
@@ -135,6 +139,6 @@ class TruthMeter:
             air_fraction=air_fraction,
             force_ratio_max=force_ratio_max,
             period=period or 0,
-            blows_per_period=blows(self._air, period, self._samples_per_revolution),
+            blows_per_period=kernels.contacts_begun(self._air, slot, period) if period else 0,
             mode=true_mode(air_fraction, period),
         )

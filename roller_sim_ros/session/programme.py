@@ -2,15 +2,13 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from typing import Protocol
+from typing import NamedTuple, Protocol
 
 from roller_sim_ros.session.command import ExciterCommand
 from roller_sim_ros.site import Position
 
 
-@dataclass(frozen=True)
-class Moment:
+class Moment(NamedTuple):
     """When and where a revolution begins.
 
     Attributes

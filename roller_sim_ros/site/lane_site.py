@@ -159,9 +159,10 @@ class LaneSite:
     def move(self, duration_s: float, force_ratio: float) -> None:
         """Travel on, and leave behind what a pass does to the ground."""
         for leg in self._travel.move(duration_s):
+            cell = self._cell_at(leg.to_m)
             if self._law is not None:
-                self._lay(self._law, leg, force_ratio)
-            self._cell = self._cell_at(leg.to_m)
+                self._lay(self._law, leg, force_ratio, cell)
+            self._cell = cell
 
     def drive(self, speed_m_s: float | None) -> None:
         """Travel at a speed until told otherwise; None: as planned."""
@@ -225,25 +226,31 @@ class LaneSite:
         return modulus, plastic
 
     def _cell_at(self, chainage_m: float) -> int:
-        return min(max(int(chainage_m / self._cell_m), 0), self._cells - 1)
+        cell, last = int(chainage_m / self._cell_m), self._cells - 1
+        if 0 <= cell <= last:
+            return cell
+        return 0 if cell < 0 else last
 
-    def _lay(self, law: CompactionLaw, leg: Leg, force_ratio: float) -> None:
-        """Let a leg compact the cells it goes over."""
-        low, high = sorted((leg.from_m, leg.to_m))
-        speed = (high - low) / leg.duration_s if leg.duration_s > 0.0 else 0.0
-        laid = law.effort(speed, force_ratio) * leg.duration_s / self._cell_m
-        first, last = self._cell_at(low), self._cell_at(high)
+    def _lay(self, law: CompactionLaw, leg: Leg, force_ratio: float, to_cell: int) -> None:
+        """Let a leg, which ends in a cell, compact the cells it goes over."""
+        from_m, to_m, duration_s, ends_pass = leg
+        low, high = (from_m, to_m) if from_m < to_m else (to_m, from_m)
+        speed = (high - low) / duration_s if duration_s > 0.0 else 0.0
+        laid = law.effort(speed, force_ratio) * duration_s / self._cell_m
+        from_cell = self._cell_at(from_m)
+        first, last = (from_cell, to_cell) if from_cell < to_cell else (to_cell, from_cell)
         if first == last:
             self._fresh[first] += laid
         else:
             edges = self._cell_m * np.arange(first, last + 2)
             edges[0], edges[-1] = low, high
             self._fresh[first : last + 1] += laid * np.diff(edges) / (high - low)
-        self._leave(min(first, self._cell), max(last, self._cell), leg)
+        if ends_pass or not first == last == self._cell:
+            stays = -1 if ends_pass else to_cell
+            self._leave(min(first, self._cell), max(last, self._cell), stays)
 
-    def _leave(self, first: int, last: int, leg: Leg) -> None:
-        """Let the cells that the drum has left, or all of them where a pass ends, remember."""
-        stays = -1 if leg.ends_pass else self._cell_at(leg.to_m)
+    def _leave(self, first: int, last: int, stays: int) -> None:
+        """Let cells remember that the drum has left, all but the one where it stays."""
         for cell in range(first, last + 1):
             if cell != stays:
                 # Rounded, so that cells that were driven over alike are alike to the last bit.

@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Collection
-from dataclasses import dataclass
-from typing import Protocol
+from typing import NamedTuple, Protocol
 
 from roller_sim_ros.parameters import Soil
 
@@ -12,8 +11,7 @@ MAX_SPEED_M_S = 5.0
 """Travel speed beyond which a command is refused; rollers reach 3 to 4 m/s on the road."""
 
 
-@dataclass(frozen=True)
-class Position:
+class Position(NamedTuple):
     """Where the roller is on its lane.
 
     Attributes

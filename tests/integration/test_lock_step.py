@@ -96,6 +96,17 @@ def test_clock_is_told_to_those_who_come_while_time_stands_still(stepper):
 def test_same_scenario_gives_the_same_bytes_as_without_ros(stepper, scenario: Path):
     heard = stepper.listen("drum/acceleration", DrumAcceleration)
     meter = stepper.listen("meter", CompactionMeter)
+
+    def is_heard() -> bool:
+        # Until the roller has found the subscriptions it sends nothing to them.
+        last = stepper.advance(revolutions=1).next_sample - 1
+        return bool(heard) and bool(meter) and meter[-1].last_sample == last
+
+    stepper.spin_until(is_heard)
+    assert stepper.ask(ResetSimulation, "reset_simulation").result.result == Result.RESULT_OK
+    stepper.spin_for(0.5)
+    heard.clear()
+    meter.clear()
     stepper.advance(revolutions=40)
     emulator = Emulator(start_ns=0, **start_of(read_scenario(scenario))._asdict())
     expected = [message for _ in range(40 * 8) for message in emulator.advance(16)]

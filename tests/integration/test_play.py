@@ -173,7 +173,7 @@ def test_chosen_topics_in_a_namespace_at_a_rate_in_a_loop_until_ctrl_c(
     soils = client.listen("/replay/soil", DiagnosticStatus, lasting)
     blocks = client.listen("/replay/drum/acceleration", DrumAcceleration)
     chosen = ("--topics", "drum/acceleration", "/soil", "--namespace", "replay")
-    arguments = (str(trace), *chosen, "--rate", "4", "--loop")
+    arguments = (str(trace), *chosen, "--rate", "2", "--loop")
     with process(own_domain, tmp_path, *PLAY, *arguments) as player:
         client.spin_until(lambda: sum(block.sequence == 0 for block in blocks) >= 3 and soils)
         assert client.node.count_publishers("/replay/truth") == 0

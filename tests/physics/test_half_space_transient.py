@@ -1,7 +1,11 @@
 """The exact transient: Pekeris' closed forms, the strip's step response and its table."""
 
+import io
 import itertools
 import math
+import os
+import subprocess
+import sys
 
 import numpy as np
 import pytest
@@ -19,6 +23,7 @@ from roller_sim_ros.half_space import (
 from roller_sim_ros.half_space.point_load import point_load, step_displacement
 from roller_sim_ros.half_space.rectangle import sides
 from roller_sim_ros.half_space.transient import memory, step_and_ramp, wave_fronts
+from roller_sim_ros.jit import DISABLE_VARIABLE
 
 ASPECT_RATIOS = st.floats(0.0, math.log(60.0)).map(math.exp)
 POISSON_RATIOS = st.floats(0.0, 0.49)
@@ -235,3 +240,34 @@ def test_a_poisson_ratio_next_to_zero_is_next_to_that_of_zero(poisson_ratio: flo
     near = step_and_ramp(tau, 7.0, poisson_ratio)
     for values, expected in zip(near, at_zero, strict=True):
         assert values == pytest.approx(expected, abs=poisson_ratio + 1e-11)
+
+
+# One root of the body waves, two, and a complex pair.
+POISSON_RATIOS_OF_EACH_KIND = (0.0, 0.25, 0.35)
+
+PLAIN = """
+import sys
+import numpy as np
+from roller_sim_ros.jit import JIT_ACTIVE
+from tests.physics.test_half_space_transient import all_kinds
+assert not JIT_ACTIVE
+np.save(sys.stdout.buffer, all_kinds())
+"""
+
+
+def all_kinds():
+    found = []
+    for poisson_ratio in POISSON_RATIOS_OF_EACH_KIND:
+        span = memory(8.0, poisson_ratio)
+        fronts = wave_fronts(8.0, poisson_ratio)
+        tau = np.concatenate([np.linspace(0.0, 1.1 * span, 60), fronts])
+        found.append(step_and_ramp(tau, 8.0, poisson_ratio))
+    return np.array(found)
+
+
+def test_plain_python_gives_the_compiled_transient():
+    environment = {**os.environ, DISABLE_VARIABLE: "1"}
+    plain = subprocess.run(
+        [sys.executable, "-c", PLAIN], env=environment, capture_output=True, check=True
+    )
+    np.testing.assert_allclose(np.load(io.BytesIO(plain.stdout)), all_kinds(), rtol=0, atol=1e-11)

@@ -34,13 +34,17 @@ def project(waves: Array, revolution: Array, out: Array) -> None:
 
 
 @njit
-def keep(products: Array, turns: Array, row: int, sums: Array, slot: int) -> None:
+def keep(
+    waves: Array, revolution: Array, products: Array, turns: Array, row: int, sums: Array, slot: int
+) -> None:
     """Turn a revolution's sums to where the window counts from, and keep them twice, a window apart.
 
     Parameters
     ----------
+    waves, revolution
+        As `project` takes them.
     products : ndarray, shape (2 orders,)
-        Sums with the cosines, then with the sines.
+        Receives the sums with the cosines, then with the sines.
     turns : ndarray, shape (2, rows, orders)
         Cosine and sine of the angle, of several revolutions.
     row : int
@@ -50,6 +54,7 @@ def keep(products: Array, turns: Array, row: int, sums: Array, slot: int) -> Non
     slot : int
         Place in it, below the window.
     """
+    project(waves, revolution, products)
     orders, window = sums.shape[1], sums.shape[2] // 2
     for k in range(orders):
         real, imaginary = products[k], products[orders + k]

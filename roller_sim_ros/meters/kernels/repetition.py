@@ -23,8 +23,8 @@ def note_changes(
         The ring.
     changes : ndarray, shape (candidates, window)
         Receives the greatest difference from the revolutions some revolutions before, NaN if there is one in it.
-    extremes : ndarray, shape (2, window)
-        Receives greatest and least value.
+    extremes : ndarray, shape (3, window)
+        Receives greatest and least value, and the sum.
     slot : int
         Its place in the ring.
     back : ndarray of int, shape (candidates,)
@@ -41,46 +41,47 @@ def note_changes(
             if change > worst or change != change:
                 worst = change
         changes[row, slot] = worst
-    highest, lowest = newest[0], newest[0]
+    highest, lowest, total = newest[0], newest[0], 0.0
     for i in range(samples):
         value = newest[i]
+        total += value
         highest = max(highest, value)
         lowest = min(lowest, value)
         revolutions[slot, i] = value
     extremes[0, slot] = highest
     extremes[1, slot] = lowest
+    extremes[2, slot] = total
 
 
 @njit
 def first_period(
-    revolutions: Array,
     changes: Array,
     extremes: Array,
     newest: int,
     candidates: Counts,
+    samples: int,
     tolerance: float,
 ) -> int:
     """Return the first candidate after which a full window repeats, 0 for none.
 
     Parameters
     ----------
-    revolutions, changes, extremes : ndarray
+    changes, extremes : ndarray
         As `note_changes` fills them.
     newest : int
         Place of the newest revolution in the ring.
     candidates : ndarray of int, shape (candidates,)
         Revolutions.
+    samples : int
+        Samples in a revolution.
     tolerance : float
         Share of the peak about the mean within which the motion has to repeat.
     """
-    window, samples = revolutions.shape
+    window = extremes.shape[1]
     total = 0.0
     highest, lowest = extremes[0, 0], extremes[1, 0]
     for n in range(window):
-        part = 0.0
-        for i in range(samples):
-            part += revolutions[n, i]
-        total += part
+        total += extremes[2, n]
         highest = max(highest, extremes[0, n])
         lowest = min(lowest, extremes[1, n])
     mean = total / (window * samples)

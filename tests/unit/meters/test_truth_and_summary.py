@@ -9,9 +9,9 @@ from typing import Any
 import numpy as np
 import pytest
 
-from roller_sim_ros.meters import Mode, TruthMeter, TruthValue, summarise
+from roller_sim_ros.meters import Mode, TruthMeter, TruthValue, kernels, summarise
 from roller_sim_ros.meters.summary import blows
-from roller_sim_ros.session.block import Block
+from roller_sim_ros.session.block import AIR, Block
 
 N = 128
 MASS, LOAD = 3200.0, 54936.0
@@ -134,6 +134,33 @@ def test_blows_are_contacts_that_begin_within_the_last_period() -> None:
     air[-5:] = False
     assert blows(air, 1) == 2
     assert blows(air, 0) == blows(air, None) == 0
+
+
+def test_rings_hold_what_the_samples_say() -> None:
+    rng = np.random.default_rng(3)
+    window, samples = 6, 16
+    air, forces = np.zeros((window, samples), dtype=np.bool_), np.zeros(window)
+    states = rng.integers(0, 3, (20, samples)).astype(np.float64)
+    force = rng.normal(size=(20, samples))
+    for n in range(20):
+        slot = n % window
+        without, greatest = kernels.note_contact(force[n], states[n], AIR, slot, air, forces)
+        if n + 1 < window:
+            continue
+        newest = slice(n + 1 - window, n + 1)
+        flat = (states[newest] == AIR).ravel()
+        assert without == np.count_nonzero(flat)
+        assert greatest == force[newest].max()
+        for revolutions in range(1, window):
+            assert kernels.contacts_begun(air, slot, revolutions) == blows(
+                flat, revolutions, samples
+            )
+
+
+def test_a_force_that_is_no_number_is_not_hidden() -> None:
+    air, forces = np.zeros((2, 4), dtype=np.bool_), np.zeros(2)
+    kernels.note_contact(np.array([1.0, math.nan, 3.0, 2.0]), np.zeros(4), AIR, 0, air, forces)
+    assert math.isnan(kernels.note_contact(np.ones(4), np.zeros(4), AIR, 1, air, forces)[1])
 
 
 def test_truth_is_unknown_until_the_window_is_full(drum: Callable[..., Any]) -> None:
