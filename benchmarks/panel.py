@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-import os
 import re
-import shutil
 import tempfile
 import time
 from collections.abc import Iterator
@@ -19,6 +17,7 @@ from benchmarks.processes import Process
 from benchmarks.table import Table
 from roller_sim_ros.bench.domain import own_domain
 from roller_sim_ros.parameters import SAMPLES_PER_REVOLUTION, Configuration
+from roller_sim_ros.report.pdf import find_browser
 
 HZ = 40.0
 SETTLING_S = 8.0
@@ -27,7 +26,6 @@ LONGEST_S = 60.0
 BLOCK_S = Configuration().pacing.samples_per_message / (SAMPLES_PER_REVOLUTION * HZ)
 RUNS = ALONE, SERVED, SHOWN = ("node alone", "with the panel", "with panel and browser")
 
-BROWSERS = ("chromium", "chromium-browser", "google-chrome")
 DRAWN = "Number(document.getElementById('rate').dataset.drawn || 0)"
 _SUMMARY = re.compile(
     r"in (?P<blocks>\d+) blocks, (?P<late>\d+) late; "
@@ -98,12 +96,8 @@ def _opened(url: str) -> Iterator[Any]:
     """Yield the page in a browser."""
     from playwright.sync_api import sync_playwright
 
-    names = (os.environ.get("CHROMIUM", ""), *BROWSERS)
-    browser = next(filter(None, map(shutil.which, names)), None)
-    if browser is None:
-        raise BenchmarkError("no Chromium found: make chromium")
     with sync_playwright() as playwright:
-        running = playwright.chromium.launch(executable_path=browser, args=["--no-sandbox"])
+        running = playwright.chromium.launch(executable_path=find_browser(), args=["--no-sandbox"])
         page = running.new_page(viewport={"width": 1440, "height": 1000})
         page.goto(url)
         yield page

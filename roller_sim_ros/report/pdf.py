@@ -39,7 +39,7 @@ def find_browser() -> str:
         if found:
             return found
     raise RollerSimError(
-        f"--pdf needs a Chromium or Chrome, and none is found ({', '.join(NAMES)}): install one (Debian: apt-get "
+        f"no Chromium or Chrome is found ({', '.join(NAMES)}), which a PDF needs: install one (Debian: apt-get "
         "install chromium; Ubuntu: snap install chromium), name it with CHROMIUM=/path, or print the HTML page from "
         "a browser"
     )

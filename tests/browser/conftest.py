@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import os
 import re
-import shutil
 import subprocess
 import sys
 import time
@@ -15,19 +14,10 @@ import pytest
 from playwright.sync_api import Browser, Page, expect, sync_playwright
 
 from roller_sim_ros.bench.domain import own_domain
+from roller_sim_ros.report.pdf import find_browser
 from tests.integration.harness import PATIENCE_S, Client, Sim
 
 QUICK = ("--ros-args", "-p", "exciter.frequency_rate_hz_per_s:=100.0")
-
-
-def chromium() -> str:
-    """Where the browser is, found as tools/chromium.sh finds it."""
-    names = (os.environ.get("CHROMIUM"), "chromium", "chromium-browser", "google-chrome")
-    for name in filter(None, names):
-        found = shutil.which(name)
-        if found:
-            return found
-    raise AssertionError("no Chromium found: make chromium, or apt-get install chromium")
 
 
 class Panel:
@@ -127,7 +117,7 @@ def client(number: int) -> Iterator[Client]:
 @pytest.fixture(scope="session")
 def browser() -> Iterator[Browser]:
     with sync_playwright() as playwright:
-        running = playwright.chromium.launch(executable_path=chromium(), args=["--no-sandbox"])
+        running = playwright.chromium.launch(executable_path=find_browser(), args=["--no-sandbox"])
         yield running
         running.close()
 
