@@ -308,6 +308,8 @@ def hostile_client() -> Iterator[HostileClient]:
                 [sys.executable, "-m", "roller_sim_ros.commands", "sim", "--lock-step"],
                 Path(folder) / "node.log",
                 {"ROS_DOMAIN_ID": str(domain), "ROS_LOG_DIR": folder},
+                # It may be asked to record, to files of odd names.
+                Path(folder),
             )
             client.wait_until_there()
             yield client

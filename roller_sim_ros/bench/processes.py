@@ -29,6 +29,8 @@ class Process:
         Where its output goes.
     environment : mapping
         What differs from the environment of this process.
+    folder : Path, optional
+        Where it works; where this process does when not given.
 
     Raises
     ------
@@ -37,7 +39,12 @@ class Process:
     """
 
     def __init__(
-        self, name: str, command: Sequence[str], log: Path, environment: Mapping[str, str]
+        self,
+        name: str,
+        command: Sequence[str],
+        log: Path,
+        environment: Mapping[str, str],
+        folder: Path | None = None,
     ) -> None:
         self.name = name
         self.log = log
@@ -45,6 +52,7 @@ class Process:
             with log.open("wb") as output:
                 self._process = subprocess.Popen(
                     command,
+                    cwd=folder,
                     stdin=subprocess.DEVNULL,
                     stdout=output,
                     stderr=subprocess.STDOUT,
