@@ -129,9 +129,12 @@ class User:
 
 
 def pip(*arguments: str) -> None:
+    # A colcon workspace that is sourced is on PYTHONPATH, where pip would find the package installed.
+    environment = {name: value for name, value in os.environ.items() if name != "PYTHONPATH"}
     done = subprocess.run(
         [sys.executable, "-m", "pip", "--disable-pip-version-check", "--no-input", *arguments],
         cwd=ROOT,
+        env=environment,
         capture_output=True,
         text=True,
         check=False,

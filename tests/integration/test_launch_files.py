@@ -16,10 +16,13 @@ from roller_sim_ros.traces.reader import TraceReader
 from tests.integration.harness import PATIENCE_S, recorded
 from tests.launching import ROOT, launched
 
+STARTING_S = 5 * PATIENCE_S
+"""What is installed may be another copy than that of the other tests, whose kernels are compiled."""
+
 
 def until(found: Callable[[], re.Match[str] | None]) -> re.Match[str]:
     """Wait until something is said."""
-    end = time.monotonic() + PATIENCE_S
+    end = time.monotonic() + STARTING_S
     while time.monotonic() < end:
         match = found()
         if match is not None:
