@@ -5,9 +5,13 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
+import numpy as np
+
+from roller_sim_ros.emulation import Emulator
 from roller_sim_ros.meters import MeterValue
 from roller_sim_ros.node.clock_owner import said
 from roller_sim_ros.node.lateness import LatenessSummary
+from roller_sim_ros.scenario import Scenario
 from roller_sim_ros.session import ExciterStatus
 from roller_sim_ros.site import Position
 from roller_sim_ros.traces.recorder import RecorderStatus
@@ -51,6 +55,25 @@ class Drive:
     unsettled_steps: int
     finite: bool
     position: Position | None
+
+    @classmethod
+    def of(cls, emulator: Emulator, scenario: Scenario | None) -> Drive | None:
+        """Return what an emulator's roller does, once it has done something."""
+        block = emulator.block
+        if block is None:
+            return None
+        return cls(
+            simulated_s=block.time_s + len(block) * block.sample_period_s,
+            samples=block.first_sample + len(block),
+            sample_period_s=block.sample_period_s,
+            shear_modulus_pa=block.shear_modulus_pa,
+            plastic_parameter_m=block.plastic_parameter_m,
+            exciter=emulator.session.exciter_status(),
+            meter=emulator.meter_value,
+            unsettled_steps=emulator.session.unsettled_steps,
+            finite=bool(np.isfinite(block.acceleration_vertical).all()),
+            position=None if scenario is None else emulator.session.site.position,
+        )
 
 
 @dataclass(frozen=True)

@@ -8,7 +8,6 @@ import time
 from collections.abc import Callable, Mapping
 from typing import TypeVar
 
-import numpy as np
 from rclpy.node import Node
 
 from roller_sim_ros.emulation import Emulator, snapshot
@@ -23,7 +22,6 @@ from roller_sim_ros.node.run import Run
 from roller_sim_ros.node.station import Station
 from roller_sim_ros.node.warm_up import try_out, warm_up
 from roller_sim_ros.parameters import PARAMETERS, Configuration, ParameterError, Value
-from roller_sim_ros.scenario import Scenario
 from roller_sim_ros.session import Refusal
 from roller_sim_ros.wire import messages, topics
 
@@ -309,7 +307,7 @@ class Roller:
         exciter, travel = self.inputs.exciter, self.inputs.travel
         report = Report(
             node=self._node.get_fully_qualified_name(),
-            drive=_drive(pacer.run.emulator, self._beginning.scenario) if pacer else None,
+            drive=Drive.of(pacer.run.emulator, self._beginning.scenario) if pacer else None,
             paused=pacer is not None and not pacer.playing,
             simulated_time=self.simulated_time,
             rivals=station.rivals,
@@ -415,21 +413,3 @@ def _structure(configuration: Configuration) -> dict[str, Value]:
     """Return the parameters that cannot change while the roller runs."""
     flat = configuration.flat()
     return {name: value for name, value in flat.items() if not PARAMETERS[name][0].changes}
-
-
-def _drive(emulator: Emulator, scenario: Scenario | None) -> Drive | None:
-    block = emulator.block
-    if block is None:
-        return None
-    return Drive(
-        simulated_s=block.time_s + len(block) * block.sample_period_s,
-        samples=block.first_sample + len(block),
-        sample_period_s=block.sample_period_s,
-        shear_modulus_pa=block.shear_modulus_pa,
-        plastic_parameter_m=block.plastic_parameter_m,
-        exciter=emulator.session.exciter_status(),
-        meter=emulator.meter_value,
-        unsettled_steps=emulator.session.unsettled_steps,
-        finite=bool(np.isfinite(block.acceleration_vertical).all()),
-        position=None if scenario is None else emulator.session.site.position,
-    )
