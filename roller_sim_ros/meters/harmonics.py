@@ -128,7 +128,9 @@ class HarmonicsWindow:
         phase_rad : float
             Phase of the eccentric at the first sample.
         """
-        turns, row = self._turns_at(index, phase_rad)
+        turns, row = self._turns, index % self.window_revolutions
+        if phase_rad != 0.0:
+            turns, row = self._turned(row, phase_rad), 0
         slot = self._next
         kernels.keep(
             self._waves,
@@ -140,7 +142,8 @@ class HarmonicsWindow:
             slot,
         )
         self._next = (slot + 1) % self.window_revolutions
-        self._held = min(self._held + 1, self.window_revolutions)
+        if self._held < self.window_revolutions:
+            self._held += 1
 
     def harmonics(self) -> Harmonics:
         """Return the amplitudes over the window; NaN while it is not full."""
@@ -151,16 +154,13 @@ class HarmonicsWindow:
         kernels.window_sums(self._sums, self._next, self._scale, amplitudes)
         return Harmonics(self.orders, amplitudes)
 
-    def _turns_at(self, index: int, phase_rad: float) -> tuple[NDArray[np.float64], int]:
-        """Return the row of cos and sin of q (2π index + phase), exactly ±1 and 0 where the angle is one."""
-        row = index % self.window_revolutions
-        if phase_rad == 0.0:
-            return self._turns, row
+    def _turned(self, row: int, phase_rad: float) -> NDArray[np.float64]:
+        """Return cos and sin of q (2π row + phase), shape (2, 1, orders)."""
         real, imaginary = self._turns[:, row]
         angle = np.array(self.orders) * phase_rad
         cosine, sine = np.cos(angle), np.sin(angle)
         turned = [real * cosine - imaginary * sine, imaginary * cosine + real * sine]
-        return np.array(turned)[:, np.newaxis], 0
+        return np.array(turned)[:, np.newaxis]
 
 
 def order_amplitudes(

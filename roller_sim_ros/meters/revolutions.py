@@ -139,9 +139,7 @@ class RevolutionCollector:
         if start % count == 0 and end - start == count and start == first_sample:
             # What comes most: a block that is a revolution.
             self._begin(timing, phase_rad / self._step % count)
-            whole = np.empty(self._samples.shape)
-            for row, channel in zip(whole, samples, strict=True):
-                row[:] = channel
+            whole = np.concatenate(samples, dtype=np.float64).reshape(self._samples.shape)
             found.append(self._revolution(start, timing, whole))
             start = end
         while start < end:

@@ -20,6 +20,8 @@ REVOLUTIONS = 16
 SAMPLES = REVOLUTIONS * SAMPLES_PER_REVOLUTION
 MOST = 4
 """Windows of a report, those of the modes that lasted longest."""
+LEAST = 4
+"""Revolutions in a row that make a mode worth a window: the meter may name one on the way between two others."""
 
 TRUTH_FIELDS = ("horizontal", "soil_force", "drum_height", "contact_state")
 
@@ -122,9 +124,9 @@ def _chosen(record: RunRecord) -> list[tuple[Mode, float, int, float, tuple[int,
     for mode in Mode:
         of_mode = modes[starts] == int(mode)
         lengths = (ends - starts) * of_mode
-        if mode is Mode.UNKNOWN or not of_mode.any():
-            continue
         longest = int(np.argmax(lengths))
+        if mode is Mode.UNKNOWN or lengths[longest] < LEAST:
+            continue
         place = int(starts[longest] + lengths[longest] // 2)
         share = float(np.count_nonzero(modes == int(mode)) / len(modes))
         last_sample = int(record.meter["last_sample"][place])
