@@ -11,7 +11,7 @@ from roller_sim_ros.meters import kernels
 from roller_sim_ros.meters.harmonics import METER_ORDERS, HarmonicsWindow
 from roller_sim_ros.meters.mode import Mode, true_mode
 from roller_sim_ros.meters.period import TOLERANCE, PeriodWindow
-from roller_sim_ros.meters.registry import TRUE_METERS
+from roller_sim_ros.meters.registry import TRUE_METERS, evaluate
 from roller_sim_ros.meters.revolutions import Revolution, RevolutionCollector, Timing
 from roller_sim_ros.parameters import SAMPLES_PER_REVOLUTION
 from roller_sim_ros.session.block import AIR, Block
@@ -129,15 +129,13 @@ class TruthMeter:
                 last_sample, air_fraction=air_fraction, force_ratio_max=force_ratio_max
             )
         harmonics = self._harmonics.harmonics()
-        cmv, rmv = math.nan, math.nan
-        if harmonics.amplitude(1.0) > 0.0:
-            cmv, rmv = (meter.value(harmonics) for meter in TRUE_METERS)
+        values = evaluate(harmonics, TRUE_METERS) if harmonics.amplitude(1.0) > 0.0 else {}
         steady = self._at_this_frequency >= self.window_revolutions
         period = self._period.period() if steady else None
         return TruthValue(
             last_sample=last_sample,
-            cmv=cmv,
-            rmv=rmv,
+            cmv=values.get("cmv", math.nan),
+            rmv=values.get("rmv", math.nan),
             air_fraction=air_fraction,
             force_ratio_max=force_ratio_max,
             period=period or 0,
