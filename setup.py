@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """What pip installs: the Python modules and the shared files, without generated messages.
 
 A ROS 2 installation is built from CMakeLists.txt instead, which installs the same modules.

@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """`python -m benchmarks.bare_loop PERIOD_S BUSY_S`: absolute deadlines and nothing else, until it is interrupted.
 
 What any Python process on this machine can do at that moment; the node's pacing is compared with it. Busy for as long

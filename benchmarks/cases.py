@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """The paper's two roller/soil pairs of Figure 15, at 28 Hz and 1.6 mm."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """Estimates: a window of 16 revolutions, beside one run of the model to a settled motion through the same kernels."""
 
 from __future__ import annotations

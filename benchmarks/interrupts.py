@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """For the processes of the benchmarks: to be ended by a signal and then say what they found."""
 
 from __future__ import annotations

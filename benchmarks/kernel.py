@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """The kernels against the same loop in C, bare and through the layers of Python above them."""
 
 from __future__ import annotations

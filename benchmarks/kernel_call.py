@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """A kernel called bare, for many revolutions at once, from a settled motion."""
 
 from __future__ import annotations

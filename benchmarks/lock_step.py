@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """How much faster than real time lock step goes, with DDS, a recording and a client in the loop."""
 
 from __future__ import annotations

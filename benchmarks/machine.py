@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """The facts of the machine that figures were measured on."""
 
 from __future__ import annotations

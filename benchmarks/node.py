@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """The real node: lateness of its blocks beside a bare deadline loop, share of a core, lost samples."""
 
 from __future__ import annotations

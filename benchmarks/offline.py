@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """How many times faster than real time the roller runs without ROS, and what its saved state costs."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """The live page beside the node: lateness of the node's blocks without and with it, frames drawn, and its cost."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """The paper's roller on its two-pole half space as plain differential equations, for scipy's `solve_ivp`.
 
 The phases of Figure 13 each with their own equations, events between them, the soil renewed at the drum's apex.

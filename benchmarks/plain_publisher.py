@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """`python -m benchmarks.plain_publisher TOPIC`: publishes one empty block as soon as it can, until it is interrupted.
 
 How soon any Python node is heard on this machine; the roller's start is compared with it.

@@ -1,3 +1,6 @@
+// Copyright 2026 The roller_sim_ros developers
+// SPDX-License-Identifier: Apache-2.0
+
 /* The loops of roller_sim_ros/drum_soil in plain C: what the same algorithm costs without Python.
 
    Written from the equations and the phases, sample by sample: exciter, parabolic part of a step, phase changes located

@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """reference_loop.c, compiled on the spot and called with the arrays of our kernels."""
 
 from __future__ import annotations

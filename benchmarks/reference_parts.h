@@ -1,3 +1,6 @@
+// Copyright 2026 The roller_sim_ros developers
+// SPDX-License-Identifier: Apache-2.0
+
 /* One part of a step in plain C: the exciter's force, the two-pole half space, the parabolic soil force. Included by
    reference_phases.h. */
 

@@ -1,3 +1,6 @@
+// Copyright 2026 The roller_sim_ros developers
+// SPDX-License-Identifier: Apache-2.0
+
 /* The phases of Figure 13 in plain C: phase changes located inside a step, the fresh-soil rule. Included by
    reference_loop.c. */
 

@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """All benchmarks by name, in the order of the document, where each has its part; each is imported when it runs."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """Parts of docs/benchmarks.md: one per benchmark, each with the facts of the machine that it was measured on."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """The two-pole kernel against scipy's `solve_ivp` with events, at matched accuracy."""
 
 from __future__ import annotations

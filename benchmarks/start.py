@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """How long it takes from the start of the node to its first sample."""
 
 from __future__ import annotations

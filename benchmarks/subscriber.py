@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """`python -m benchmarks.subscriber TOPIC`: a client of the roller as one would write it, until it is interrupted."""
 
 from __future__ import annotations

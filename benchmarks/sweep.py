@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """Sweeps: eight lanes against eight lanes in C, the map of Figure 16, threads against processes, memory."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+// Copyright 2026 The roller_sim_ros developers
+// SPDX-License-Identifier: Apache-2.0
+
 /* Eight two-pole trajectories side by side in plain C: what the lanes of roller_sim_ros/sweep cost without Python.
 
    Whole steps in loops over the lanes, one for each phase, without branches; steps in which a phase changes one lane at a

@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """Eight trajectories side by side: ours against sweep_lanes.c, compiled on the spot, on the same arrays."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """What a benchmark found, as a Markdown table that also reads well on a terminal."""
 
 from __future__ import annotations

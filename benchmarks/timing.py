@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """Two things timed in turn, A B A B, so that both see the same noise; in CPU time, as others use the machine too."""
 
 from __future__ import annotations

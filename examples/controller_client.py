@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """A jump guard in fifteen lines: less amplitude while the roller double-jumps, slowly more again when it does not."""
 
 import rclpy

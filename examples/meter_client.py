@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """A compaction meter in a few lines: CMV from drum/acceleration, over 16 revolutions, published as my_cmv.
 
 Replace what `evaluate` does by your own meter; run it beside ``roller-sim sim`` or ``roller-sim play TRACE``.

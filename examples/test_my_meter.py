@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """A test of a compaction meter: the roller stands until the test steps it, and gives the same samples every time."""
 
 import sys

@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """A compaction meter that is wrong on purpose: what a verdict has to find (docs/score.md names the rows).
 
 - Its window is a tenth of a second, no whole number of revolutions, and there is no window function: the excitation

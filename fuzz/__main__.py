@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """`python -m fuzz [--items N] [--dds N] [--coverage-guided SECONDS] [--write]`."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """What atheris feeds, following the branches that its bytes take: the reading of scenarios and of bags.
 
 A process of its own for each, as ``python -m fuzz.coverage_guided scenarios 60``: libFuzzer never returns.

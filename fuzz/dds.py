@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """Hostile clients of a real node over DDS: messages, damaged messages, parameters, requests of every service."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """What a hostile sender sends: values at and beyond every edge, names that are nearly right, broken bytes."""
 
 from __future__ import annotations

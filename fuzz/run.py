@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """Feeds targets with as many items as are asked for, and tells what came of it."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """What is fed: each target takes an item, and says whether it was accepted; whatever else happens is a finding."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """Runs a scenario with a meter beside it and judges the meter, as ``roller-sim bench`` does.
 
 As in ``ros2 launch roller_sim_ros bench.launch.py scenario:=soft_to_stiff meter:="ros2 run my_meters cmv"``. The

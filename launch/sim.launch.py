@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """Starts the roller.
 
 As in ``ros2 launch roller_sim_ros sim.launch.py namespace:=roller_1 record:=trace.mcap scenario:=soft_to_stiff``.

@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """A vibratory soil-compaction roller for ROS 2: its sensors, emulated by a physical drum/soil model.
 
 Everything but `roller_sim_ros.node` and the commands ``sim`` and ``play`` works where ROS 2 is absent.

@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """Numba where it is there; plain Python, with the same results, where it is not."""
 
 from __future__ import annotations

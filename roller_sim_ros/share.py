@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """Where the package's shared files are: message definitions, parameter files, launch files."""
 
 from __future__ import annotations

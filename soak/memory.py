@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """How much memory processes have, and whether it grows."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """Settings that hold for every test, also when pytest is started without make."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """Stands for launch and launch_ros, which are not among the wheels: what the launch files use of them, as they have it.
 
 The names of the arguments, what must be given by name, and how a command line is put together are those of launch and

@@ -1,4 +1,7 @@
 #!/usr/bin/env bash
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 # Sees to it that tests/browser has a Chromium to run in: there already, installed by apt where that may be, or asked for.
 set -euo pipefail
 

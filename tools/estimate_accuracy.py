@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """How well the ground is estimated back: round trips, and what wrong assumptions do (`docs/estimate.md`).
 
 `python -m tools.estimate_accuracy [--write]`; some minutes on one core.

@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """Writes what follows from the declarations: docs pages, config/*.yaml, README's tables (`make docs`).
 
 ``--check`` writes nothing and fails when a file is not what it would be.
@@ -111,6 +114,8 @@ def readme_sections() -> dict[str, str]:
     }
     for example in ("meter_client", "controller_client", "test_my_meter"):
         code = (ROOT / "examples" / f"{example}.py").read_text(encoding="utf-8")
+        # Below the notice of copyright and licence.
+        _, _, code = code.partition("\n\n")
         sections[example] = f"```python\n{code.rstrip()}\n```"
     return sections
 
@@ -123,9 +128,9 @@ def parameters_page() -> str:
         f"Generated {GENERATED} in `roller_sim_ros/parameters/`.",
         "",
         "ROS 2 parameters and YAML files have the dotted names and SI units. **Live** ones change while the roller",
-        "runs, at the next multiple of 128 samples, those of the recording between two blocks; the others are read-only",
-        "while it is active. Flags of",
-        "`roller-sim sim` and `roller-sim run` are in the unit that their name ends in.",
+        "runs, at the next multiple of 128 samples, those of the recording between two blocks; the others are",
+        "read-only while it is active. Flags of `roller-sim sim` and `roller-sim run` are in the unit that their name",
+        "ends in.",
     ]
     for group, declaration in GROUPS.items():
         rows = [

@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """Writes the layouts for Foxglove and PlotJuggler from one list of panels (`make docs`).
 
 Both draw each element of an array as a curve of its own, so that panels hold scalar fields: per sample those of

@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """Draws docs/figures/data_flow.svg: the folders, and an arrow from each to those that import it (`make docs`).
 
 Arrows that follow from others are left out, and ``commands``, which may import all. ``--check`` writes nothing and

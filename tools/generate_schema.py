@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """Writes what follows from the declarations of scenarios: the JSON Schema for editors and docs/scenario_keys.md.
 
 ``--check`` writes nothing and fails when a file is not what it would be. Called by `make docs`.

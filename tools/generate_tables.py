@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """Writes the tables of docs/meters.md and docs/soil.md: what the model makes of the meters, and the presets.
 
 ``--check`` writes nothing and fails when a page is not what it would be.

@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """Files that follow from declarations: written, or with ``--check`` compared."""
 
 from __future__ import annotations

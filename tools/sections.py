@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """Parts of a page that a command writes, from ``<!-- written: NAME -->`` to ``<!-- end -->``; the rest is by hand."""
 
 from __future__ import annotations

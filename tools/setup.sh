@@ -1,4 +1,7 @@
 #!/usr/bin/env bash
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 # Sets up .venv and build/, in stages that are skipped while their inputs stay the same: `make setup`.
 #
 #   environment  .venv, from Python 3.11 or 3.12 ($PYTHON, when given)

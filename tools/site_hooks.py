@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """What mkdocs does to a page on its way to the site: links to files of the repository become their names."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """Writes the table and the pictures of docs/validation.md: the paper's statements against what comes out.
 
 ``tools/validation.py`` computes everything anew, in some two minutes on two cores; ``--check`` writes nothing and fails

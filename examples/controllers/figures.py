@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """The figures and the tables of docs/controllers.md: each controller in a scenario, and the scenario without one.
 
 python -m examples.controllers.figures --write            # docs/figures/controller_*.png, and the tables of the page

@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """Force limiter: holds the greatest force on the ground, over the static load, at a limit, by the amplitude.
 
 The force is not measured, it follows from the drum's equation of motion: F_s = m_d (z'' + A ω² (−sin φ)) + F_stat, with

@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """Jump guard: less amplitude when RMV rises, slowly more again when it has stayed low.
 
 RMV rises before the drum jumps. A perturbation of every second revolution, which dies out fast on soft ground,

@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """A controller in lock step: the roller stands still until the controller has answered its last revolution.
 
     python -m examples.controllers.lock_step jump_guard --scenario soft_to_stiff --record guard.mcap

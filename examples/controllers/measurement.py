@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """What a controller gets and gives: the roller's messages in, one `Measurement` a revolution, a `Command` out.
 
 Nothing here needs ROS: a message is any object with the fields of its type, be it rclpy's or one read from a trace.

@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """Model-based controller: estimates G and p, and asks its own model of the roller for the setting that fits them.
 
 Frequency: the resonance of the drum on that ground. Amplitude: a little less than the largest with which the drum of

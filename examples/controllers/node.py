@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """The ROS 2 node around a law: its parameters, the topics that it reads, and an answer to every ``meter``."""
 
 from __future__ import annotations

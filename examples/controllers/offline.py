@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """A controller in the loop without ROS: the roller is stepped, the law answers its messages, as fast as it goes."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """Phase tracker: keeps the lag of the drum behind the eccentric at a setpoint, by the frequency.
 
 The lag is near 180° for a drum on soft ground, far above its resonance, and 90° at the resonance. Stiffer ground

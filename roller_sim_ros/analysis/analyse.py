@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """Evaluation of a bag, from its first message to its last, in one pass and bounded memory."""
 
 from __future__ import annotations

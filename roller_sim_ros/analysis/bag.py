@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """Any bag: an MCAP file or a rosbag2 folder, read front to back with the types that it brings along.
 
 No message package needs to be installed: definitions come from the schemas in the bag.

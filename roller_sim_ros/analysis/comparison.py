@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """Recorded values beside those computed anew, matched by the index of their last sample."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """What of a numbered stream is missing, doubled or out of order."""
 
 from __future__ import annotations

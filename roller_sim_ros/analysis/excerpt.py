@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """The last settled revolutions of a bag, kept for the settled values and the plot."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """The plot of a bag: acceleration, spectrum in orders, force against displacement, CMV over time."""
 
 from __future__ import annotations

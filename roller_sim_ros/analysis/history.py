@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """Meter values over time, one row a revolution, in compact columns."""
 
 from __future__ import annotations

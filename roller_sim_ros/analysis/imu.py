@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """A sensor_msgs/Imu stream, one message a sample, as revolutions of the eccentric.
 
 An Imu message tells neither phase nor frequency. It can be evaluated exactly where its rate is a whole

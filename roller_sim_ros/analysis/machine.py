@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """What a bag says of the machine that made it, for the meter values that need to know it."""
 
 from __future__ import annotations

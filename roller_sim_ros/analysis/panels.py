@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """Panels that the plots of a bag and of a run have in common, as in a paper's figure."""
 
 from __future__ import annotations

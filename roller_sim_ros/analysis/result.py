@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """How a bag is evaluated, and what comes out."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """A rosbag2 folder in SQLite, or compressed by rosbag2: what `traces` does not read, rosbags does."""
 
 from __future__ import annotations

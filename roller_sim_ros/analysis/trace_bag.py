@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """An MCAP trace as a bag: one file or a rosbag2 folder of them, whole or not."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """Runs a scenario with a meter under test beside it; what is left is a trace to be judged."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """A ROS domain that nobody else on this machine uses."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """Processes that a bench starts, and ends with all that they started themselves."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """The command line: ``roller-sim COMMAND …``; each command is the module of its name.
 
 A command has ``main(argv: list[str] | None = None) -> int`` and is imported only when it is called, so

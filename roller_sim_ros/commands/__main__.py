@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """``python -m roller_sim_ros.commands`` does the same as ``roller-sim``."""
 
 import sys

@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """Flags that take one value, a list or a range: the axes of a sweep."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """``roller-sim bench``: a scenario, a meter under test and the verdict in one go."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """``roller-sim estimate``: the ground that a trace was made on."""
 
 from __future__ import annotations

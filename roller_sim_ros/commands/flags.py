@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """Command-line flags made from the declarations of the parameters, in engineering units."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """Numbers of the command line that are checked while it is parsed: types for argparse."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """``roller-sim play``: a trace on the ROS 2 network."""
 
 from __future__ import annotations

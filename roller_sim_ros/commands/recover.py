@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """``roller-sim recover``: a whole trace of one that was cut off, and what was lost."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """``roller-sim sim``: the roller as a ROS 2 node, in real time or in time of its own."""
 
 from __future__ import annotations

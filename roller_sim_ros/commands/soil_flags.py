@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """Flags that give ground and roller by name, or the ground in the terms of soil mechanics."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """Drum and soil: the phases of Figure 13, a kernel for each kind of half space.
 
 A new half space is one file with a `Ground` and one line in `GROUNDS` (and its name among the choices of the

@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """One step of drum and soil through the phases of Figure 13, each change located inside the step.
 
 The same for all half spaces; what they do within a part of the step comes from `finite_memory`, `two_pole` and `modes`.

@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """The kernel for the exact half space: its finite memory is the motion its surface would go on with.
 
 History is kept as a physical quantity, the free motion and its rate at the coming samples if the force stayed as it

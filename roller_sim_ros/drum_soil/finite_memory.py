@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """A half space of finite memory inside one step: how its surface goes on, and how it answers.
 
 The free motion within the step is the quintic through its values and rates at this sample and the next two; R is the

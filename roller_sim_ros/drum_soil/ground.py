@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """Front of the kernels: what the half-space kinds have in common, and the interface they fill."""
 
 from __future__ import annotations

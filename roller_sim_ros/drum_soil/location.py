@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """Where in a part of a step an event happens.
 
 The part that reaches over the event says about where: its force is a parabola, and position and velocity are known with

@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """A rational half space inside a step: a sum of modes, each with its own decay (paper, eq. 9).
 
 e = H0 Re Σ r_j z_j with z_j' = p_j z_j + F. Kept is each mode's distance from rest under the present force,

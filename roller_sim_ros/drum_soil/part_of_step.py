@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """A part of a step that is being split: what its half space does, put together with drum and exciter."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """One part of a step, in one phase, under a parabolic force (paper, eqs 11 to 14, Figure 13).
 
 In each part the force is F(τ) = F + σ τ + κ τ (x − τ), and the elastic depth is known up to it:

@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """The fresh-soil rule (paper, 'Soil model': 'the drum will hit fresh soil every cycle')."""
 
 from __future__ import annotations

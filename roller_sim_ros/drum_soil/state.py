@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """Indices of the flat arrays that the kernels work on: physical state, constants, output rows."""
 
 # Physical state of drum and soil at a sample. Depths and their rates are positive down (−z).

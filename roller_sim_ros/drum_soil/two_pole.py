@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """The paper's two-pole half space inside one step (paper, eq. 9 with two poles; eqs 11 to 14).
 
 The surface obeys e'' + (ω0/Q) e' + ω0² e = ω0² H0 F. Its depth and rate are its whole history, and its motion under a

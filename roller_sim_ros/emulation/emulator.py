@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """The one place where a block of samples becomes messages: what is published is what is recorded."""
 
 from __future__ import annotations

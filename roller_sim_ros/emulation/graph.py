@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """Objects of the simulation as plain data and back, without running anything that the data says.
 
 What a run remembers is a graph of objects: sensors and faults share their random numbers, the session knows the

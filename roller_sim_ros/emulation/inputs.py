@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """What comes into a run from outside, noted at its sample, so that the run can be computed again."""
 
 from __future__ import annotations

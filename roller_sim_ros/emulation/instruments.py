@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """Sensors and faults between the session and the messages."""
 
 from __future__ import annotations

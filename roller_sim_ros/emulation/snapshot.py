@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """The whole state of an emulator as bytes: a restored one goes on bit by bit as the saved one does."""
 
 from __future__ import annotations

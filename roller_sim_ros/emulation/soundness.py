@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """What compiled loops take on trust, checked in objects that come out of a file: sizes, types and places of arrays.
 
 A loop that is compiled does not look where an array ends. Objects that are made as usual cannot have others; those

@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """A hash of each topic of a run, by which runs are compared that cut their samples into messages differently.
 
 >>> from roller_sim_ros.emulation import Emulator

@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """The ground estimated back: G and p from vertical drum acceleration and the phase of the eccentric, machine known.
 
 >>> import numpy as np

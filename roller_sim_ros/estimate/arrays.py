@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """The library call on arrays: samples of acceleration, and the phase of the eccentric at each."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """The plot of an estimate: the modelled acceleration on the measured one, and the ground over time."""
 
 from __future__ import annotations

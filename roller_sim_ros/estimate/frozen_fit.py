@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """Rational half space for grounds near each other: one fit serves them all."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """Samples of an Imu stream put together, whose phase the tacho tells."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """Soil force and drum depth of a steady motion, straight from its acceleration: the machine is the force plate.
 
 F_s = m_d (z'' − F_e sin φ/m_d) + F_stat, eq. (11), and the depth is the acceleration integrated twice, order by order.

@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """What is known of roller and ground before an estimate: from a trace, and what is given over it."""
 
 from __future__ import annotations

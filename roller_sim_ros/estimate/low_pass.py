@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """The sensor's analogue low-pass, order by order: it delays the blow, which else looks like another ground."""
 
 from __future__ import annotations

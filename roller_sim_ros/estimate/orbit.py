@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """The steady motion of the model on one ground after another, by the kernels, each from the last one's state."""
 
 from __future__ import annotations

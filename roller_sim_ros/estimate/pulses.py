@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """The phase of the eccentric at any time, from the pulses of its tacho alone."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """Local refinement: the model's steady waveform laid on the measured one by least squares, and what is left."""
 
 from __future__ import annotations

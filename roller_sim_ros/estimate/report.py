@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """What a trace says of the ground: a list of JSON objects and a table."""
 
 from __future__ import annotations

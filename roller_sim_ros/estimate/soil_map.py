@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """Coarse map: how badly each ground of a grid explains force and depth of a motion, and the best one from there.
 
 For a ground (G, p) what is left of the depth in contact, depth − e(force; G, p) − p Σ ΔF⁺/F_stat less datum and

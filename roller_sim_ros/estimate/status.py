@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """What an estimate is worth, and why there may be none."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """What each kind of half space answers to a periodic force, at many shear moduli at once.
 
 A new half space is one function and one line in `SURFACES`.

@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """The ground along a trace: windows over the acceleration of a bag, phase from its samples or its tacho."""
 
 from __future__ import annotations

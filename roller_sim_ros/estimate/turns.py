@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """Samples of any spacing laid on revolutions of the eccentric: N samples each, from phase zero to phase zero."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """The repeated waveform in a window of noisy revolutions, or why there is none.
 
 Revolutions that repeat after P of them are averaged over P. What a lag of L revolutions changes tells noise from

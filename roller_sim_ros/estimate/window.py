@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """One window of revolutions: from the waveform over the map to the ground, and what that is worth."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """How the exciter's force divides into vertical and horizontal, one entry per kind of exciter."""
 
 from __future__ import annotations

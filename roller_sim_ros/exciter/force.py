@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """What the eccentric's force does to the drum over a (part of a) step (paper, eqs 11 and 12)."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """The plan of the next 128 samples: frequency, sample period, phase and force amplitude.
 
 Frequency and sample period change only every 128 samples, at eccentric phase zero; the force amplitude is

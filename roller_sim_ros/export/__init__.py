@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """A trace in the formats of other tools: tables, sound, maps."""
 
 from roller_sim_ros.export.formats import FORMATS

@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """The formats that tables are written in. A further one: a function in a file, a line in `FORMATS`."""
 
 from __future__ import annotations

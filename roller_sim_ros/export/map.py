@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """Meter values on a grid over the ground, as intelligent-compaction viewers show them."""
 
 from __future__ import annotations

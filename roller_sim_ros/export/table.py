@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """Columns of numbers that come in pieces, so that a long trace need not fit into memory."""
 
 from __future__ import annotations

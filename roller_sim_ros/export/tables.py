@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """The tables that a trace is exported as. A further one: a function here, a line in `TABLES`."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """Faults: what breaks in sensors, messages, links and exciter; a new one is one file, one line in the catalogue."""
 
 from roller_sim_ros.faults.catalogue import FAULTS, conflict, make_fault

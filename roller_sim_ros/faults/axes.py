@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """Which of the accelerometer's axes a fault is on."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """The reading is off by a constant from one sample to the next."""
 
 from __future__ import annotations

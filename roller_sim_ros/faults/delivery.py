@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """The way of the accelerometer's messages: latency, and what faults make of it."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """An exciter that does not do what it is told."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """All faults of a run: which are active in which revolution, and what they do there."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """What every fault declares: where it acts, its parameters, and what a correct meter does under it."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """When a fault is active: by a window of the scenario, or from now until something has passed."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """Figure 7: Sung's compliance functions of circular loads, and their effective radii."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """Figure 14: how p goes with G, as assumed, and what soil mechanics makes of grounds by name."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """Figure 5: dimensionless static displacement D of the loaded rectangle's centre, eqs (5) and (6)."""
 
 from __future__ import annotations

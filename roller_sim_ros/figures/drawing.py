@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """What a figure is before it is a file: a caption, data, and how to paint it."""
 
 from __future__ import annotations

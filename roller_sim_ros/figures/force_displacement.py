@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """Figure 17: drum displacement against soil force, as from a plate load test."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """Where each meter value misleads: over G and amplitude, p going with G."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """Figure 2: what the plastic layer bears under a cylinder, and the plastic parameter p."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """Figure 8: compliance functions of a rectangular area, and their 2-pole and 4-pole approximations."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """Every figure; a new one is one file and one line here."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """Which statements of the paper hold with which k, Q and ω0."""
 
 from __future__ import annotations

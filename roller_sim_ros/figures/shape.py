@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """Figure 6: displacement of a rectangle against that of a square of the same area and load."""
 
 from __future__ import annotations

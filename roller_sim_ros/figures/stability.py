@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """Figure 16: regions of mode over frequency and amplitude."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """How the figures look, and what several of them paint."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """A roller that is advanced to points in time, as a co-simulation master asks for them."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """The elastic half space below the plastic layer, loaded by the drum's strip (paper, eqs 5 to 10).
 
 Where things are:
@@ -5,7 +8,7 @@ Where things are:
 - ``static``: influence integral I(alpha) and static compliance H0, eqs (5) to (7)
 - ``point_load``: what a point load's step does to the surface (Pekeris), Rayleigh speed
 - ``rectangle``: how much of the strip's load lies at each distance from its centre
-- ``transient``: the two together, in closed form: step response and ramp
+- ``transient``, ``transient_kernel``: the two together, in closed form: step response and ramp
 - ``step_response``: the transient as a table, and its FIR taps, for comparison with other implementations
 - ``compliance``: exact compliance H(i omega), the transform of the transient
 - ``point_load_harmonic``: what a harmonic point load does

@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """Checks of the arguments that every public function of the half space shares."""
 
 from __future__ import annotations

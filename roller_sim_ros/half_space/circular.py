@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """Compliance of circular loads: uniform, parabolic and that under a rigid disc (Figure 7).
 
 The stress of the three is 1/(pi r0^2), 2 (1 - r^2/r0^2)/(pi r0^2) and 1/(2 pi r0 sqrt(r0^2 - r^2)) for a

@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """Exact dynamic compliance of the rectangle's centre: the function eq. (9) approximates."""
 
 from __future__ import annotations

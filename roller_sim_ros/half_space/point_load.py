@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """Vertical surface displacement under a point load that is applied as a step (Pekeris).
 
 At the distance r from a vertical force that jumps from 0 to F at t = 0 the surface settles by

@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """Vertical surface displacement under a harmonic point load: the Fourier transform of Pekeris.
 
 For a force exp(+i omega t) the surface at the distance r settles by (1 - nu)/(2 pi G r) S^(y) with

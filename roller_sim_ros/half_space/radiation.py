@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """Where the energy of a vertical harmonic point load goes: Rayleigh, shear and compression waves."""
 
 from __future__ import annotations

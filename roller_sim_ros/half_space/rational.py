@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """Half space as a rational function of any order, eq. (9), fitted by linear programming.
 
 The fit (see `rational_fit`) goes to the exact compliance at the actual aspect ratio and Poisson's ratio. It is

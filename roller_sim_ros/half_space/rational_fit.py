@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """Fit of eq. (9) by linear programming: poles from a linearised minimax problem, then the residues.
 
     H(s)/H0 = N(s)/D(s) = sum_j r_j/(s - p_j),    s in units of v_s/sqrt(BL),

@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """The loaded rectangle, seen from its centre: how much of the load lies at each distance.
 
 Lengths are in units of sqrt(BL): b = B/sqrt(BL) = alpha^-1/2, l = alpha^1/2. The stress is parabolic

@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """Static compliance of the loaded rectangle on the half space: eqs (5), (6) and (7)."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """The exact transient as a table, and from it the FIR taps of the sampled half space.
 
 For comparison with other implementations, which have a half space by its taps: nothing that runs uses them, since the

@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """Exact transient of the rectangle's centre, in closed form: the step response and its ramp.
 
 Lengths are in units of sqrt(BL), times in units of sqrt(BL)/v_s. With the point load's S(x)

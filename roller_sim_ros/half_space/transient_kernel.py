@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """The transient of `roller_sim_ros.half_space.transient` at some times; compiled.
 
 One wave at a time: u = r^2 is how far it has come, t^2 = u - c^2 and psi belong to a side at the distance c. A term

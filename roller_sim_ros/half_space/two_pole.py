@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """The paper's own half space: eq. (9) of second order, H = H0/(1 + s/(Q omega0) + s^2/omega0^2)."""
 
 from __future__ import annotations

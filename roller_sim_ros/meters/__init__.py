@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """Compaction meters: CMV, RMV, period and mode, from published samples or from the truth."""
 
 from roller_sim_ros.meters.compaction_meter import CompactionMeter, MeterValue

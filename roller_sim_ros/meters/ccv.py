@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """CCV, the compaction control value: all that is not the fundamental, over the fundamental and its half."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """CMV, the compaction meter value: how much the drum's motion is distorted at twice its frequency."""
 
 from __future__ import annotations

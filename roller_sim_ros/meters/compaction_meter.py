@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """The compaction meter: CMV, RMV, period, mode and further values from published samples, once a revolution.
 
 It works on nothing but what a subscriber receives (float32 samples, timing and eccentric phase), so

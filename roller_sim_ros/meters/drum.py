@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """What a meter that knows its machine makes of the drum's acceleration: the soil's force and the drum's travel.
 
 The drum's equation of motion (eq. 11) solved for the soil's force,

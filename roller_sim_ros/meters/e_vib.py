@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """E_vib: the modulus of the ground, from the steepness of the loading branch of force over travel."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """Whether the drum leaves the ground, from its vertical acceleration alone.
 
 A meter knows neither masses nor amplitude, but it knows what a flight looks like. In the air

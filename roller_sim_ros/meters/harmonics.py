@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """Amplitudes at multiples of the excitation frequency, over a sliding window of whole revolutions.
 
 With a fixed number of samples per revolution of the eccentric the analysis is exact in orders: an

@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """k_s: the stiffness of the ground, from the drum's travel and its lag behind the eccentric."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """A rigid cylinder pressed on an elastic half space along a line of finite length (Lundberg 1939).
 
     z = (1 − ν²)/E · F/L · (2/π) (1.8864 + ln(L/b)),    b² = (16/π) · R (1 − ν²)/E · F/L

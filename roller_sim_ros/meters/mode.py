@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """Operating modes of a vibrating drum (Adam's and the paper's terms) and how they are told apart.
 
 =================== ================================================================================

@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """Samples of a fixed rate laid on the angle of the eccentric, so that a meter in orders can read them.
 
 A sensor with a sample rate of its own takes no whole number of samples per revolution. Its messages tell the phase of

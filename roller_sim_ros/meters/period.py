@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """After how many revolutions the motion repeats: 1, 2, 4, 8, or not at all.
 
 P revolutions are a period when the vertical acceleration repeats within 1 % of its peak:

@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """Whole revolutions, put together from blocks of any size.
 
 A revolution is the N samples from one multiple of N to the next. Samples are known by their index,

@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """RMV, the resonance meter value: how much the drum's motion repeats only after two revolutions."""
 
 from __future__ import annotations

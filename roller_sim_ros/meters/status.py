@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """Why a meter value is unknown or uncertain."""
 
 from __future__ import annotations

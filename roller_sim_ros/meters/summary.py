@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """The settled values of a run: what `roller-sim run` prints and what reference values are compared with."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """True values beside the sensor's: from the motion itself, once a revolution."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """What a run begins with: all parameters, and the scenario if there is one."""
 
 from __future__ import annotations

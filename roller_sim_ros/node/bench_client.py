@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """What a bench does on the network: it finds the meter's topic, and steps the roller as fast as the meter answers."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """Who publishes ``/clock``: one on a network, or nobody's time is right."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """Commands as they come in: obeyed, refused, or missed by a watchdog."""
 
 from __future__ import annotations

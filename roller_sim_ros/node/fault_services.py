@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """Services that break the roller's sensors and mend them, and the one that hands it back to the scenario."""
 
 from __future__ import annotations

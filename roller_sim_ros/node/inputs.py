@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """What clients want of the roller: exciter and travel commands, changes of parameters, release; and the watchdogs."""
 
 from __future__ import annotations

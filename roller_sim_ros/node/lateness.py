@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """How late the blocks were published: noted by the pacing thread, read by another."""
 
 from __future__ import annotations

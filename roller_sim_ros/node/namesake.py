@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """Another node of the same name: its topics and services are mixed with one's own."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """Where messages leave: each is published, and the same bytes are recorded."""
 
 from __future__ import annotations

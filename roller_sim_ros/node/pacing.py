@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """The thread that keeps time: one block at a time, published when its last sample is due."""
 
 from __future__ import annotations

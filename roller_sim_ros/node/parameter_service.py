@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """The services of the parameters, which refuse what rclpy's own would end the process for."""
 
 from __future__ import annotations

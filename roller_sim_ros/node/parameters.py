@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """The declared parameters as ROS parameters: names, types, descriptors, ranges."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """Republishes a trace: the recorded bytes, at the recorded spacing, with the recorded quality of service."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """The table's quality of service as rclpy has it, and back."""
 
 from __future__ import annotations

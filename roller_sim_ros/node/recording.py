@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """The node's recording: its own topics, the commands it receives, parameter events, and others' topics."""
 
 from __future__ import annotations

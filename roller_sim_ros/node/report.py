@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """What the node tells of itself once a second, for the diagnostics and for the status line."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """The roller behind the node: topics, recording, commands, and the run with its time."""
 
 from __future__ import annotations

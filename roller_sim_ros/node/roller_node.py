@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """The lifecycle node: transitions, parameters, and what it does once a second."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """A run of the roller on the network: its blocks are computed here and sent from here, whoever drives it."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """SIGINT and SIGTERM; without rclpy, so that they are handled before what takes long to import."""
 
 from __future__ import annotations

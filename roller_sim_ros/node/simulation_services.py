@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """Services of simulated time: steps, states, reset, saved states; names and results of simulation_interfaces."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """What connects a roller: its topics, the commands it hears, its recording, and ``/clock``."""
 
 from __future__ import annotations

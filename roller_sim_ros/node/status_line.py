@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """What the user of ``roller-sim sim`` reads: a line a second, and a summary at the end."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """What a test does on the network: it steps the roller, commands it, and keeps what it publishes."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """Everything the pacing thread will need is compiled and built once before, so that no block waits for it."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """One topic of a trace beside the same topic of its replay, message by message."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """A run that leaves the trace that the node would: the same topics with the same bytes."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """A trace computed again from what came into its runs, and compared with what it holds, byte by byte."""
 
 from __future__ import annotations

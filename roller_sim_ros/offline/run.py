@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """A run over a number of revolutions, of which the last ones are kept."""
 
 from __future__ import annotations

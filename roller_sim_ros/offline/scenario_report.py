@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """What a run of a scenario says: a JSON object, a table of the passes, a CSV of the map."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """The page's place on the ROS 2 network: a node that listens, commands and calls; the only module here with ROS."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """What goes to the page twenty times a second: a few numbers as JSON and arrays of single precision, in one message.
 
 ====================  =======================================================================

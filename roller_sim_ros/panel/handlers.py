@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """What answers the browser: the page, its files, and the socket of each page."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """What the page shows, from the bytes of the topics; knows no ROS and no network."""
 
 from __future__ import annotations

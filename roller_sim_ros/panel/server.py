@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """The web server: what goes out to the pages, and what they want done."""
 
 from __future__ import annotations

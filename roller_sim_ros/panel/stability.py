@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """The map of operating modes over frequency and amplitude, computed in another process that stands back."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """The last samples of a stream of blocks, with what is new since the last look."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """Parameters, each declared once with unit, bounds and doc; a new one is one field of one group."""
 
 from roller_sim_ros.parameters.configuration import (

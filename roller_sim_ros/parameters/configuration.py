@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """All parameter groups together, and their flat form with dotted names."""
 
 from __future__ import annotations

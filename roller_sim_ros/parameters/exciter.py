@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """The exciter: its kind, what is commanded of it and how fast it follows."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """Parameter files: YAML as a ROS 2 node reads it, or plainly nested; SI units, every name checked."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """How the elastic half space is modelled (paper, eqs 5 to 10)."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """The roller: the masses, the drum and what its exciter can do (paper, 'Roller data')."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """How a run is sampled, paced, metered and recorded."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """A parameter as it is declared once: value, unit, bounds, doc, command-line flag.
 
 Everything that shows or checks a parameter (ROS descriptors, YAML files, `--help`, the docs table) is

@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """The ground: elastic half space and plastic layer (paper, 'Soil model')."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """Displacements of a drum to be drawn: from its acceleration, and less what it sinks."""
 
 from __future__ import annotations

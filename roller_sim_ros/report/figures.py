@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """The figures of a report, as SVG to stand in a page."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """Files of a report; what was at a path stays until the new file is complete."""
 
 from __future__ import annotations

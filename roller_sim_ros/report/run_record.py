@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """What a report tells of a run, gathered from its trace in one pass over columns."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """Stretches of a run that show how it moved: one for each mode that lasted."""
 
 from __future__ import annotations

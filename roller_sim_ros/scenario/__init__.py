@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """Scenario files: what the roller drives over, what its exciter does, how it is measured and what fails.
 
 >>> from pathlib import Path

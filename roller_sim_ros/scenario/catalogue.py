@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """Checks what a scenario says of sensors and faults against their registries."""
 
 from __future__ import annotations

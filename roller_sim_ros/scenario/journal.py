@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """What was true along the lane, revolution by revolution: the map of a run."""
 
 from __future__ import annotations

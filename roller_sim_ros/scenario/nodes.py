@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """YAML as nodes that know their lines.
 
 PyYAML, on purpose: ROS 2 brings it everywhere, the parameter files are read with it, and it gives the node tree

@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """Reads a scenario file; whatever is wrong in it is told by file and line."""
 
 from __future__ import annotations

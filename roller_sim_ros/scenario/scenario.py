@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """A scenario as it is written: declared once; the reader, the JSON Schema and the docs follow."""
 
 from __future__ import annotations

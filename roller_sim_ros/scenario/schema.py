@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """JSON Schema of scenario files, for editors: made from the declarations that the reader follows."""
 
 from __future__ import annotations

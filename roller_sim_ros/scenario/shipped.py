@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """The scenarios that the package brings, by their names."""
 
 from __future__ import annotations

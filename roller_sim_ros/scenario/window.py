@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """When something holds: from … to … by time, chainage, pass or revolution."""
 
 from __future__ import annotations

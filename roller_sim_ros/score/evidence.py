@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """What the rows of a verdict look at: the meter's values beside the truth, revolution by revolution."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """By how much the meter's values lag the truth: the place of the peak of their cross-correlation."""
 
 from __future__ import annotations

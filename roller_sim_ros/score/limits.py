@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """What a meter under test may do: the limits of the verdict, and the file that says them."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """What of a message is the meter's value, its time, its flag and its alarm, found by the fields' names."""
 
 from __future__ import annotations

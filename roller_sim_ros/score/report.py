@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """A verdict as a JSON object, a short table and JUnit XML."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """Reads a trace once and judges the meter in it."""
 
 from __future__ import annotations

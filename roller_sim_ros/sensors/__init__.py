@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """Sensors: what they deliver of the true motion; a new one is one file, one line in the registry."""
 
 from roller_sim_ros.sensors.accelerometer import Accelerometer

@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """The sensor's own clock: it runs a little fast or slow, and the session's time is not its time."""
 
 from __future__ import annotations

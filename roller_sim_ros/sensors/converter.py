@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """The end of the range and the converter: what does not fit stays at the end, and nothing wraps around."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """East, north and up around a point of the WGS 84 ellipsoid as latitude, longitude and height, and back."""
 
 from __future__ import annotations

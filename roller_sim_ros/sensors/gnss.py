@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """Position by satellite with the error of real-time kinematics: a slow wander and a little noise."""
 
 from __future__ import annotations

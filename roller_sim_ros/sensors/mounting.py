@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """How the sensor sits on its carrier: a lean and a share of the other axis."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """The sensor's noise: white at its element, shaped by its bandwidth, then sampled."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """Travel speed and dead reckoning: a wheel's or radar's speed, and the way that it adds up to."""
 
 from __future__ import annotations

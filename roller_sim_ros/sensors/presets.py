@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """Accelerometers by name: what their data sheets state, value by value with its source."""
 
 from __future__ import annotations

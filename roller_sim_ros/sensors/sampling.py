@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """When the sensor takes its samples: with the eccentric, or by a clock of its own."""
 
 from __future__ import annotations

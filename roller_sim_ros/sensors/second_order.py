@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """A second-order low-pass at a changing sample period: exact for a straight line from sample to sample, and for noise.
 
 y'' = ω² (u − y) − √2 ω y' (Butterworth), states y and y'/ω. The step over a sample period is the matrix exponential

@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """What every accelerometer is: true motion of a block in, readings out."""
 
 from __future__ import annotations

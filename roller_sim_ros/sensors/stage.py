@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """A stage of a sensor: signals of a block in, signals out."""
 
 from __future__ import annotations

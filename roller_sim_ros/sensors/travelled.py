@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """Where the roller is at any time of a revolution, and when a sensor of a fixed rate asks."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """The session: one object that every driver steps, whether in real time, offline or in lock step."""
 
 from roller_sim_ros.session.block import Block

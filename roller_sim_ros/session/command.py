@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """Commands: what is asked and by whom, and why it may be refused."""
 
 from __future__ import annotations

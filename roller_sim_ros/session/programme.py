@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """What a scenario has the exciter do, and the moment of which it is asked."""
 
 from __future__ import annotations

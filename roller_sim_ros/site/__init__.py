@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """The construction site: where the roller is and what ground is there."""
 
 from roller_sim_ros.site.compaction import LAWS, CompactionLaw

@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """Records whose fields are declared once: what a scenario file may say, its bounds, docs and JSON Schema.
 
 A field's name is its key in the file, with its unit (``length_m``, ``shear_modulus_mpa``). Its annotation

@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """G, p, ρ and ν of a stretch of ground as a scenario file gives them: by name, or by value."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """A lane with its ground, its memory of the passes, and the roller on it."""
 
 from __future__ import annotations

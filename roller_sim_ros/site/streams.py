@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """Random numbers: one stream for each purpose, so that using one changes no other."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """Where the roller drives: forth and back on a lane as planned, or as it is told."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """What the ground is, in the terms of soil mechanics: eqs (1) to (4), and grounds and rollers by name.
 
 Where things are:

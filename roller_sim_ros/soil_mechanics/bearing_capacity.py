@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """Bearing capacity of a strip on the surface of the ground: eq. (1) and its factors.
 
 The factors depend on the friction angle φ alone. N_q and N_c are exact for weightless ground; for N_γ, which

@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """The ground as soil mechanics describes it, and what the drum/soil model makes of it."""
 
 from __future__ import annotations

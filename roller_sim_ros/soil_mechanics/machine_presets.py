@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """Rollers by name, each with where its numbers are from."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """The plastic parameter p from the strength of the ground: eqs (1) and (2) under a round drum.
 
 A strip of half width B and the drum's width W bears, for friction material without cohesion and without

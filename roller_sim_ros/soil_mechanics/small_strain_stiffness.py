@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """Shear modulus of granular ground at small strain: eqs (3) and (4).
 
     G_max = C_1 (C_2 − e)² / (1 + e) √σ̄_0,    σ̄_0 = (1 + 2 K_0)/3 σ_v

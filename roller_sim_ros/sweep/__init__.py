@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """Sweeps: what the roller settles on over a whole grid of parameters.
 
 >>> from roller_sim_ros import sweep

@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """An axis of a sweep: one parameter and the values that it takes."""
 
 from __future__ import annotations

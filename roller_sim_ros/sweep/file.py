@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """Sweep files: netCDF-4, written as a whole or not at all, and checked when read."""
 
 from __future__ import annotations

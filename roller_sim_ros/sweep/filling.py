@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """Filling in the results of a sweep with any executor: threads here, processes, or machines elsewhere."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """A grid of points: the axes of a sweep and what is the same at all of its points."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """What the lanes of the two-pole kernel know of their trajectories: one row of `LANES` numbers for each fact.
 
 All rows lie in one flat array, so that the compiler sees that they do not overlap and computes several lanes with one

@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """Two-pole runs side by side in the lanes of one core, each until it repeats or has run its revolutions.
 
 All lanes are at the same sample of the revolution. Whole steps are taken by `two_pole_lanes`; where a phase changes,

@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """The settled motion of some points, side by side: what every value of a sweep is made from."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """What a sweep does: its grid, how long each point runs, and where each starts."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """The last revolutions of several runs, in memory that is used again and again."""
 
 from __future__ import annotations

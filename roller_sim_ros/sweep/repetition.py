@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """Whether a motion has come to repeat to rounding, told from its states at the ends of revolutions.
 
 A run whose state repeats over `REPETITIONS` periods to `TOLERANCE` of its scale has reached its orbit: what follows is

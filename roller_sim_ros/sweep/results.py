@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """The results of a sweep as far as they are there, and their labelled form."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """Rollers stepped over revolutions of one plan inside compiled code, down to what they settle on."""
 
 from __future__ import annotations

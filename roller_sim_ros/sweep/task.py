@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """A share of a sweep that one worker computes: it can be sent to another process or machine."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """A whole step of several two-pole trajectories at once, without branches; a lane whose phase changes waits.
 
 Each phase has a loop over all lanes that computes the step of that phase and keeps it where the lane is in it. The

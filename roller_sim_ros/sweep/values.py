@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """What a sweep says of each point; a new value is one function and one line in `VALUES`.
 
 A function takes a `Motion` and returns one number for each of its points: NaN, or `UNKNOWN` among whole numbers, where

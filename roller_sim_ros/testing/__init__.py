@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """A roller for tests with pytest: in lock step, in a ROS domain of its own, its trace kept when the test fails.
 
 Name it in ``conftest.py``, or in the test's own file:

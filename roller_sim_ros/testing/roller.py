@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """A roller in lock step for one test: a process in a ROS domain of its own, and a client of it."""
 
 from __future__ import annotations

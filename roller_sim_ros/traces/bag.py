@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """Which MCAP files make up what the user names: one file, or the folder of a rosbag2 bag."""
 
 from __future__ import annotations

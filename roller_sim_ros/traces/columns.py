@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """Messages of a trace by the chunk, as arrays: what makes hours of trace readable in seconds.
 
 A chunk's message index tells where each message stands, so that chunks without wanted topics are not even

@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """MCAP's framing: which records of a file are there with all their bytes.
 
 It is read here and not by the mcap library because every offset matters when a file is damaged; what is

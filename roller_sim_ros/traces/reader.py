@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """Reads traces message by message: MCAP files and rosbag2 folders, whole or not."""
 
 from __future__ import annotations

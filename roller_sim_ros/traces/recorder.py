@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """Records without ever delaying the thread that hands the messages over: a process of its own writes."""
 
 from __future__ import annotations

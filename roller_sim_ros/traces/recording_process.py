@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """The process that writes the trace: it empties the ring until the other end of its standard input closes.
 
 It is started by `roller_sim_ros.traces.recorder`. The other end closes when the recorder is closed and

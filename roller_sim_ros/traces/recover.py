@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """Makes a whole trace of one that was cut off or damaged, and accounts for what was lost.
 
 Lost is a message of which the file no longer holds all bytes, which is in a chunk that fails its checksum,

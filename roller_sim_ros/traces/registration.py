@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """Announces topics to a trace: schema, type hash and quality of service from the tables of `wire`."""
 
 from __future__ import annotations

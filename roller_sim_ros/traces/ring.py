@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """The hand-over to the recording process: a ring in shared memory that one side fills and the other empties.
 
 Putting a message in is a copy in memory: no system call, no lock of the other process, nothing that could wait

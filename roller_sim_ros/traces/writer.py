@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """Writes a trace: MCAP with the conventions of rosbag2, in chunks that reach the disk soon."""
 
 from __future__ import annotations

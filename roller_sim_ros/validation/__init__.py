@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """The paper against the model: what each checkable sentence of it says, and what came out.
 
 Where things are:

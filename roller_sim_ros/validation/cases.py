@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """Statements on single motions: Figures 10, 15 and 17, and the numerical solution."""
 
 from __future__ import annotations

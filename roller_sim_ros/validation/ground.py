@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """Statements on the plastic layer and on soil mechanics: eqs (1) to (4), Figures 2 and 14."""
 
 from __future__ import annotations

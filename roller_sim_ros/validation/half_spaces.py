@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """Statements on the elastic half space: eqs (5) to (9), Figures 5 to 8."""
 
 from __future__ import annotations

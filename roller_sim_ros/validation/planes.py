@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """Statements on the plane of frequency and amplitude: Figures 16, 18 and 20."""
 
 from __future__ import annotations

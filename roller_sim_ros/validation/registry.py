@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """Every statement, in the order of the paper; a new one is one function and one entry in its subject's file."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """Which statements hold with which k, Q and ω0: choices of the paper that it does not publish."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """What a statement of the paper is, and what is found about it."""
 
 from __future__ import annotations

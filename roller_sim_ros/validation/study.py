@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """The paper's roller and grounds, and what the model makes of them: what statements and figures are made from.
 
 What several of them need is computed once and kept for the process.

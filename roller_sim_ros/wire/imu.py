@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """``drum/imu``: one message per sample, thousands a second, so its bytes are put together from a template."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """Session results as ROS messages: pure functions from simulation objects to bytes.
 
 Stamps count from the start of the run: `start_ns` (since the epoch) plus the accumulated sample periods;

@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """CDR bytes of the messages that come hundreds of times a second, by one `struct.Struct` each.
 
 Where the fields of a message lie depends on nothing but the lengths of its strings and arrays; the layout of some

@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """Quality of service as the topics' table states it, and as rosbag2 writes it into a recording."""
 
 from __future__ import annotations

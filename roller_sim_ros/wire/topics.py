@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """The one table of topics; publishers, recording and the README's table are made from it."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """The message types: how their bytes are made, and the text that a recording carries of them.
 
 Messages are serialised by rosbags, which needs no ROS; the node publishes the bytes that the trace holds.

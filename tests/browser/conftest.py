@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """Fixtures: a roller, its panel and a browser, which the tests share; each test has a page of its own."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """The report in a real browser: printed and read back, on a phone, in the dark."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """Controllers in the loop without ROS: what they keep the roller from, and at what cost."""
 
 from __future__ import annotations

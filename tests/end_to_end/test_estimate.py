@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """A trace in, the ground out: the command, real sensors, pulses, and input that is of no use."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """`roller-sim export`: each format is read back with what its users read it with, and holds what the trace holds."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """`roller-sim fmu`: an independent importer runs the unit, and it is the roller that the session is."""
 
 from __future__ import annotations

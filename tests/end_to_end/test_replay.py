@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """``roller-sim replay``: identical for every trace that was not touched, and the very place where one was."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """`roller-sim report`: one page that needs nothing else and says what the trace says."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """``roller-sim run``: settled values, trace, plot, and what is said when something is wrong."""
 
 from __future__ import annotations

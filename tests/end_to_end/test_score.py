@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """The verdict on whole runs: the built-in meter passes, the one that is wrong on purpose fails where it should."""
 
 from __future__ import annotations

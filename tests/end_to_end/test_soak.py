@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """The short form of ``make soak``: no sample is lost, time does not drift, memory stays."""
 
 from __future__ import annotations

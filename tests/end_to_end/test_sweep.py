@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """roller-sim sweep as a user runs it: the file, going on after an interruption, any number of workers."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """What roller-sim sweep refuses: one clear line, a code that is not 0, and nothing overwritten."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """A sweep on workers of other kinds: processes, and a cluster of dask.distributed; one that dies loses nothing."""
 
 from __future__ import annotations

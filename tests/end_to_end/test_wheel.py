@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """The wheel as its user has it: installed into a fresh environment without ROS 2, its commands run there.
 
 In `make test` what the wheel requires is linked from the environment of `make setup`, and kernels run as plain Python:

@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """Fixtures: a domain of one's own, and one roller that the tests which leave it as it was may share."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """What the tests between processes share: the node as a process, and a client of it."""
 
 from __future__ import annotations

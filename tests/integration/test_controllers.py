@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """The example controllers as nodes of their own, in lock step over DDS: the run is that without ROS, bit for bit."""
 
 from __future__ import annotations

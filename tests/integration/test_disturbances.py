@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """What happens on a network: clients die, readers do not read, a node dies, there are two of one name."""
 
 from __future__ import annotations

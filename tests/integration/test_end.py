@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """How the node ends, and what becomes of the bag: signals, kills, full and unwritable disks."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """The README's controller closes the loop; its meter is run in test_play."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """Hostile clients over DDS: whatever they send, the node goes on, and each refusal says why."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """What demo.launch.py starts runs: roller and page, in a namespace, with parameters, recorded."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """The node's life over DDS: transitions, what each state answers, structural parameters in between."""
 
 from __future__ import annotations

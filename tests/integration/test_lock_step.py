@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """Lock step over DDS: nothing moves by itself, steps are exact, the same samples come every time."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """The issue's scenario: a client in its own process commands the roller and computes CMV itself."""
 
 from __future__ import annotations

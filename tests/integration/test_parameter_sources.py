@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """Where parameters come from: flags, files, ROS arguments; what is wrong with them is said in one line."""
 
 from __future__ import annotations

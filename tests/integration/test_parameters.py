@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """Parameters over DDS: descriptors, refusals, live changes, read-only ones."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """``roller-sim play``: the example meter on played data says what it said live; the network sees the trace."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """What is in the bag beside the node's own topics: commands, parameter events, the meter under test."""
 
 from __future__ import annotations

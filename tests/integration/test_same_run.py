@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """One session, many drivers: a scenario gives the same bits offline, in lock step, in simulated and in real time."""
 
 from __future__ import annotations

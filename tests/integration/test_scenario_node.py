@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """A scenario on the network: what it publishes, who is master, what breaks, what is told to the parameters."""
 
 from __future__ import annotations

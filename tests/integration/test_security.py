@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """What the node may do, opens and writes: its policy against its graph, its ports, its files, as another user."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """Simulated time that goes on by itself, and real time: what a client can ask of either."""
 
 from __future__ import annotations

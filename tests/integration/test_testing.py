@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """The fixtures for users' tests: used here, and by pytest in processes of its own as a user would."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """The topics as a subscriber sees them: qualities of service, the late comer, the standing roller, the IMU."""
 
 from __future__ import annotations

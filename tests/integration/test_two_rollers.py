@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """Two rollers on one network, in two namespaces, have nothing to do with each other."""
 
 from __future__ import annotations

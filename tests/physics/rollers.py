@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """Runs of the bare kernels for the physics tests: no session, no messages."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """The two-pole roller against the same phases written plainly for scipy's `solve_ivp`, sample by sample."""
 
 from __future__ import annotations

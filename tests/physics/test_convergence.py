@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """128 samples per revolution are enough: periodic motion is that of 512."""
 
 from __future__ import annotations

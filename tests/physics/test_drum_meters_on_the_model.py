@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """What the meters that know their machine make of the simulated drum, beside the truth."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """Energy books: what the exciter and gravity put in is found again in plastic work and waves."""
 
 from __future__ import annotations

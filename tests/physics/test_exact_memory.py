@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """The exact half space remembers as long as its waves run, however often the soil changes."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """Circular loads (Figure 7) and the energy that a load radiates."""
 
 import itertools

@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """Dynamic compliance of the strip: reference values, an independent integral, and the two-pole form."""
 
 import json

@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """Eq. (9) of any order, fitted by linear programming: accuracy, stability, passivity."""
 
 import math

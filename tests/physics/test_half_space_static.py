@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """Static stiffness of the strip (paper, eqs 5 to 7) against independent values and a quadrature."""
 
 import json

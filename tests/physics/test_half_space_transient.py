@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """The exact transient: Pekeris' closed forms, the strip's step response and its table."""
 
 import io

@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """Settled motion against values of an independent code (tests/reference/cases.json)."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """The accelerometer's noise and drift are those of the data sheet: statistically, within derived bounds.
 
 All bounds are five standard deviations of the estimate, so that one test in two million fails by chance; the seeds

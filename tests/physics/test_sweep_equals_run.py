@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """Every point of a sweep has the numbers of a run with the same parameters."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """What holds for every plan of revolutions, whatever is commanded when, at any rates and any floor."""
 
 from __future__ import annotations

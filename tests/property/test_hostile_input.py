@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """Whatever comes in: no crash, and each refusal says in one line why. ``make fuzz`` feeds 100 000 items of these."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """Sensors and faults: the size of the blocks has no part in them, and one stream of numbers changes no other."""
 
 from __future__ import annotations

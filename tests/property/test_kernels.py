@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """What holds for every motion, whatever is commanded and whatever the ground does."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """The meters' compiled loops against the same definitions written for whole arrays."""
 
 from __future__ import annotations

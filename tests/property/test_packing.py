@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """Bytes of messages as the library writes them, whatever is in the messages."""
 
 from typing import Any

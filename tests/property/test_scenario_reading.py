@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """Whatever a scenario file holds: it can be run, or one line says what is wrong. Never a traceback."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """What holds for every way of driving a session, and for its time, whatever is commanded when."""
 
 from __future__ import annotations

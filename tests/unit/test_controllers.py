@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """The example controllers' laws, one measurement at a time, and how measurements are made of messages."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """What is imported is declared, for pip and for rosdep, and what is declared is imported."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """What `make docs` writes is what the declarations say, and the parameter files are accepted."""
 
 from __future__ import annotations

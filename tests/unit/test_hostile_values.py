@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """Values that no sound sender sends, found by fuzzing: each is refused with its name, in one line."""
 
 from __future__ import annotations

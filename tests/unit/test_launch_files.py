@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """What the launch files start, for every argument; launch itself is stood in for by tests/launching.py."""
 
 from __future__ import annotations

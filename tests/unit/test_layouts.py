@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """The layouts are what the list of panels says, and every curve is a scalar field of a topic that is published."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """One master at a time: the scenario, or a live command until it is released."""
 
 from __future__ import annotations

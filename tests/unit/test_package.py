@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """The package as a whole: layers, versions, messages, installed commands, the dispatcher."""
 
 from __future__ import annotations

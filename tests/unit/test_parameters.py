@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """Parameters: declarations, checks, the flat form, parameter files."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """The help of a command needs none of the libraries that take long to import."""
 
 import subprocess

@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """Saved states: what goes on from them is the same to the last bit, and nothing in them is run."""
 
 from __future__ import annotations

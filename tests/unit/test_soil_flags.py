@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """Ground and roller from flags: presets, states, and which of several flags has the last word."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """Hashes of streams: the same for the same run however it is cut, another for another run."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """Axes, grids and plans of a sweep, and the texts that give them."""
 
 from __future__ import annotations

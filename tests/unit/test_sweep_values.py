@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """Values of a sweep from motions that are known, and the watch over what repeats."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """The tables of docs/meters.md and docs/soil.md are what the model and the presets say now."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """Messages decode to the values that went in, and the template equals what the library makes."""
 
 import math

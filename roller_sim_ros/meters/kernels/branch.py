@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """The modulus of `roller_sim_ros.meters.e_vib` from force and travel."""
 
 from __future__ import annotations

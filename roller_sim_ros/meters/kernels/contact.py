@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """Force and flights of the last revolutions, kept in rings."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """The test for flights of `roller_sim_ros.meters.flight`, on one motion."""
 
 from __future__ import annotations

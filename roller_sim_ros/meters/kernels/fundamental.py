@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """Fundamental of motions and the soil's force in them, with the eccentric's sine and cosine."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """Projection of one revolution on the waves of some orders, and the sums over a window of revolutions."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """By how much a revolution differs from those before it, and after how many the motion repeats."""
 
 from __future__ import annotations

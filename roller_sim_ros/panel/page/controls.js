@@ -1,3 +1,6 @@
+// Copyright 2026 The roller_sim_ros developers
+// SPDX-License-Identifier: Apache-2.0
+
 // What the page can do to the roller, and how that shows.
 
 const SETTLE_MS = 1500;

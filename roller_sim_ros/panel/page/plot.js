@@ -1,3 +1,6 @@
+// Copyright 2026 The roller_sim_ros developers
+// SPDX-License-Identifier: Apache-2.0
+
 // Axes and lines on a canvas. A plot is drawn as a whole each time: it has at most as many points as pixels, some thousand.
 
 const TICKS = [1, 2, 5, 10];

@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """The rows of a verdict; a new kind is one file here and one line below."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """Whether the meter knows that the drum double-jumps."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """How far the values are off: bias, RMS, latency, and a ceiling that they do not pass."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """What the meter does under each fault, against what the fault says that a correct meter does."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """When there is no value though there should be one, and a value though there should be none."""
 
 from __future__ import annotations

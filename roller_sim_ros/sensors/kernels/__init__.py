@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """Loops over samples that numpy cannot do; compiled."""
 
 from functools import cache

@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """Laws of how passes compact the ground; a new one is one file and one line here."""
 
 from roller_sim_ros.site.compaction.exponential import Exponential

@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """Compaction that goes the same share of what is left with each pass."""
 
 from __future__ import annotations

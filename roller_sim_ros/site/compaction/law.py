@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """What all compaction laws have in common: how much a pass counts, and where compaction ends."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """Features of the ground along the lane; a new one is one file and one line here."""
 
 from roller_sim_ros.site.features.feature import Feature, Stream

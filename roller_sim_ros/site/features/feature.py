@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """What every feature of the ground is: a record that writes itself into the profile."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """A buried hard object: a boulder, a pipe, an old foundation."""
 
 from __future__ import annotations

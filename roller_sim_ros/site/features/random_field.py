@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """Scatter of the ground along the lane: a random field with a correlation length."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """Bags that a third party's writer made of a session."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """Bag in, report out: what `roller-sim analyze` finds in a whole bag."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """Bad input: one clear line, exit code 1, no traceback; what can be read is read."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """CCV, Omega, E_vib and k_s of a bag: anew from the samples and the machine's facts, beside the recorded ones."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """Gaps, duplicates and order, against a model that keeps every sample."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """The excerpt: the last settled revolutions, an even number, safe from what comes after."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """Rate and frequency of an Imu stream: exact, or an honest error."""
 
 from __future__ import annotations

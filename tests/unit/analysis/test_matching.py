@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """Recorded and computed values find each other, in any order."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """Choice of topics: one roller's, never a mix, and a line that says what there is."""
 
 from __future__ import annotations

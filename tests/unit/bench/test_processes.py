@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """Processes of a bench end with all that they started, and tell what they said."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """Samples of any spacing on revolutions, pulses as a phase, windows that slide."""
 
 from __future__ import annotations

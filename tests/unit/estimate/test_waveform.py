@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """What of a window is a motion, what is noise, and why there may be no waveform."""
 
 from __future__ import annotations

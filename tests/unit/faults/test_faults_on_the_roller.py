@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """Each fault on the whole roller: what goes out, what the built-in meter makes of it, and that truth stays truth."""
 
 from __future__ import annotations

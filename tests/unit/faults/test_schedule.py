@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """When faults are active: by time, chainage and revolution, together or not."""
 
 from __future__ import annotations

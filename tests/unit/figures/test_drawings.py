@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """What figures are painted from: no empty panel, labelled axes, and the helpers behind them."""
 
 from __future__ import annotations

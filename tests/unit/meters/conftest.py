@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """A drum on paper: waveforms whose flights, period and harmonics are known by construction."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """The meter: the same numbers for every client, and a reason wherever there is no number."""
 
 from __future__ import annotations

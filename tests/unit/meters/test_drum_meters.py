@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """Force, travel and the values that need the machine, against motions that are known in closed form."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """E_vib against loading branches made by Lundberg's relation itself."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """The streaming meter's further values: those of its window, and unknown where the machine's facts are."""
 
 from __future__ import annotations

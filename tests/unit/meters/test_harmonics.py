@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """Order amplitudes: exact, without leakage, the same bits from a stream as from a batch."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """Modes: from the contact states, and as far as an acceleration alone tells them."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """Samples of a fixed rate give the values that samples of the eccentric's angle give."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """The period: found where it is, to the tolerance, and unknown rather than wrong."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """True values and settled values, from the same motion by two ways."""
 
 from __future__ import annotations

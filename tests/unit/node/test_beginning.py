@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """What a run begins with: parameters and scenario, which do not contradict each other."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """What clients want, without ROS: obeyed, refused, lost in a frozen link, missed by a watchdog."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """A message that the middleware refuses is counted and recorded, and the others go out."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """A run without ROS: steps by samples and by time, the clock before its block, the end."""
 
 from __future__ import annotations

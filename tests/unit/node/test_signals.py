@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """A signal while the node starts is caught wherever it comes, and the process ends as it wants to."""
 
 from __future__ import annotations

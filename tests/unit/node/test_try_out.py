@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """What cannot be computed is refused before a running roller becomes like that."""
 
 from __future__ import annotations

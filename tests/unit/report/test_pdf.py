@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """Printing, with browsers that do what real ones do only in bad surroundings."""
 
 from __future__ import annotations

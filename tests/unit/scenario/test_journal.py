@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """The map of a run: a row per revolution, whenever it is asked for."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """The JSON Schema: not stale, and of one mind with the reader."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """Evidence of a meter that is right, to be spoilt by the tests."""
 
 from __future__ import annotations

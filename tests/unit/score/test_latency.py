@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """Latency: found where the true value tells it, and a reason where it does not."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """Messages find the revolution that they are of, by their stamp or by when they came."""
 
 from __future__ import annotations

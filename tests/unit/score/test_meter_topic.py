@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """What of a message is the value, the flag and the alarm."""
 
 from __future__ import annotations

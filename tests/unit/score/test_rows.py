@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """Each row passes a meter that is right, and fails the one that is wrong in what the row is named for."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """The truth of a trace, and the faults in it, revolution by revolution."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """The accelerometer of a data sheet: what each statement of the sheet does to the signal."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """A fixed sample rate: nothing but what the low-pass lets through folds back, and the clock is the sensor's."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """The tacho: a pulse per revolution, at its phase, in any block; not while the eccentric stands."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """Declared records: checked on construction, and known to the reader and the schema alike."""
 
 from __future__ import annotations

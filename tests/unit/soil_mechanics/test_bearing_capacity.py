@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """Bearing capacity factors against the tables of textbooks, their limits, and each other."""
 
 from __future__ import annotations

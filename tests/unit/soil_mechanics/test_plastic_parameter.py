@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """The plastic parameter against the bearing capacity of the strip that the drum rests on."""
 
 from __future__ import annotations

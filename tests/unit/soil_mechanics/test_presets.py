@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """Grounds and rollers by name: complete, within bounds, as the sources have them."""
 
 from __future__ import annotations

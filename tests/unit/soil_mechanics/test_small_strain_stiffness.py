@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """G_max of Hardin and Richart: units, limits, monotonicity; mean stress from K_0 and depth."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """A short recording with every topic of the package, made of its own messages."""
 
 from __future__ import annotations

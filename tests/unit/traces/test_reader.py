@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """Reading: everything of a whole trace, all that is left of a broken one, one clear line for what is none."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """Recording in a process of its own: nothing waits, nothing is lost in silence, the file is whole."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """Recovery: all that can be read is in a whole file again, and the account of the rest is right."""
 
 from __future__ import annotations

@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """The hand-over keeps order and bytes, refuses when full, and forgets nothing that it accepted."""
 
 from __future__ import annotations

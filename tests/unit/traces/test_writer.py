@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """Conformance: what is written is what rosbag2 would write, read back by two independent libraries."""
 
 from __future__ import annotations

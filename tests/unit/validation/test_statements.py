@@ -1,3 +1,6 @@
+# Copyright 2026 The roller_sim_ros developers
+# SPDX-License-Identifier: Apache-2.0
+
 """Statements of the paper: that they can fail, what they are made from, and that the page is not stale."""
 
 from __future__ import annotations
