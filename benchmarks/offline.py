@@ -19,11 +19,12 @@ from roller_sim_ros.offline.scenario_run import run_scenario, step_with_faults
 from roller_sim_ros.parameters import SAMPLES_PER_REVOLUTION, Configuration
 from roller_sim_ros.scenario import Start, read_scenario, start_of
 from roller_sim_ros.scenario.shipped import shipped_scenarios
+from roller_sim_ros.session import Session
 
 REVOLUTIONS = 500
 ROUNDS = 5
 HALF_SPACES = ("two-pole", "rational", "exact")
-SCENARIO = "ten_passes_to_refusal"
+SCENARIO, GRADIENT = "ten_passes_to_refusal", "soft_to_stiff"
 HZ = 28.0
 GROUNDS = (
     "On a lane the half space is made anew for every ground that the roller meets: two-pole by a formula, exact by its "
@@ -39,6 +40,7 @@ def measure(_options: Options) -> Table:
     ways: list[tuple[str, Timed, str]] = [
         ("roller-sim run", _plain, "≥ 1000"),
         ("session on a scenario's lane", _lane, "≥ 1000"),
+        ("session on a gradient, no ground twice", _gradient, ""),
         ("roller-sim run SCENARIO, with its map", _scenario, ""),
         ("all messages, blocks of 128 samples", lambda model: _messages(model, 128), ""),
         ("all messages, blocks of 16 samples", lambda model: _messages(model, 16), ""),
@@ -57,7 +59,7 @@ def measure(_options: Options) -> Table:
         says=(
             "Simulated time over CPU time of one core, at 28 Hz: how many times faster than real time. With messages "
             "means all that the node publishes, as bytes; what a trace adds is its compression. The scenario is "
-            f"`{SCENARIO}`. Medians of {ROUNDS} rounds of {REVOLUTIONS} revolutions."
+            f"`{SCENARIO}`, with the gradient `{GRADIENT}`. Medians of {ROUNDS} rounds of {REVOLUTIONS} revolutions."
         ),
         columns=("way", *HALF_SPACES, "aim"),
         rows=rows,
@@ -81,8 +83,8 @@ def _configuration(model: str) -> Configuration:
     return Configuration().changed({"half_space.model": model})
 
 
-def _start(model: str) -> Start:
-    start = start_of(read_scenario(shipped_scenarios()[SCENARIO]))
+def _start(model: str, scenario: str = SCENARIO) -> Start:
+    start = start_of(read_scenario(shipped_scenarios()[scenario]))
     half_space = replace(start.configuration.half_space, model=model)
     return start._replace(configuration=replace(start.configuration, half_space=half_space))
 
@@ -94,14 +96,21 @@ def _plain(model: str) -> float:
 
 
 def _lane(model: str) -> float:
-    session = _start(model).session()
+    return _driven(_start(model).session(), REVOLUTIONS, ROUNDS)
 
+
+def _gradient(model: str) -> float:
+    # Within the one pass that the scenario has.
+    return _driven(_start(model, GRADIENT).session(), 300, 3)
+
+
+def _driven(session: Session, revolutions: int, rounds: int) -> float:
     def drive() -> None:
-        for _ in range(REVOLUTIONS):
+        for _ in range(revolutions):
             session.advance(SAMPLES_PER_REVOLUTION)
 
     drive()
-    return _median(drive) / REVOLUTIONS
+    return _median(drive, rounds) / revolutions
 
 
 def _scenario(model: str) -> float:
