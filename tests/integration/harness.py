@@ -11,6 +11,7 @@ import subprocess
 import sys
 import time
 from collections.abc import Callable, Mapping
+from contextlib import suppress
 from itertools import count
 from pathlib import Path
 from typing import Any
@@ -158,12 +159,16 @@ class Client:
         self._subscriptions.clear()
 
     def spin_until(self, done: Callable[[], Any], patience_s: float = PATIENCE_S) -> Any:
-        """Take messages until `done` returns something true, and return that."""
+        """Take messages until `done` returns something true, and return that.
+
+        The last message of a topic of which none has come yet is none that it could look at: it is asked again.
+        """
         deadline = time.monotonic() + patience_s
         while time.monotonic() < deadline:
-            result = done()
-            if result:
-                return result
+            with suppress(IndexError):
+                result = done()
+                if result:
+                    return result
             self.executor.spin_once(timeout_sec=0.1)
         raise AssertionError(f"not within {patience_s:g} s")
 
