@@ -26,7 +26,7 @@ class Meter(Node):
         super().__init__("my_meter")
         self.window, self.following = np.zeros(0), -1
         self.output = self.create_publisher(Float64, "my_cmv", 40)
-        self.create_subscription(DrumAcceleration, "drum/acceleration", self.take, 320)
+        self.create_subscription(DrumAcceleration, "drum/acceleration", self.take, 1600)
 
     def take(self, block: DrumAcceleration) -> None:
         """Add a block; begin anew after a gap, a clipped sample, and where N samples are no revolution."""

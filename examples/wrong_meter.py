@@ -41,7 +41,7 @@ class WrongMeter(Node):
         super().__init__("wrong_meter")
         self.window = np.zeros(0)
         self.output = self.create_publisher(Float64, "wrong_cmv", 40)
-        self.create_subscription(DrumAcceleration, "drum/acceleration", self.take, 320)
+        self.create_subscription(DrumAcceleration, "drum/acceleration", self.take, 1600)
 
     def take(self, block: DrumAcceleration) -> None:
         """Add a block, whatever it is."""

@@ -48,7 +48,7 @@ class Controller(Node):
             self.create_subscription(message, topic, self._answering(take), depth)
             for message, topic, take, depth in (
                 (ExciterState, "exciter/state", collector.exciter_state, 10),
-                (DrumAcceleration, "drum/acceleration", collector.acceleration, 320),
+                (DrumAcceleration, "drum/acceleration", collector.acceleration, 1600),
                 (CompactionMeter, "meter", collector.meter, 40),
             )
         ]

@@ -15,12 +15,13 @@ from roller_sim_ros.parameters import SAMPLES_PER_REVOLUTION, Pacing
 from roller_sim_ros.wire.qos import Qos
 
 BRISK_HZ = 40.0
-"""Excitation frequency by which depths of "one second" are reckoned; rollers vibrate at 25 to 40 Hz."""
+"""Excitation frequency by which depths are reckoned; rollers vibrate at 25 to 40 Hz."""
+KEPT_S = 5.0
+"""What the histories of blocks, samples and revolutions keep: the middleware sends again what a reader has missed only
+every 3 s, if it still has it then."""
 
-
-SIMULATED_TIMES, DEEPEST = 100, 50_000
-"""By how much histories are deeper in simulated time, which may go a hundred times faster, and no deeper than this: the
-middleware sends again what a reader has missed only every 3 s of real time, if it still has it then."""
+SIMULATED_TIMES, DEEPEST = 20, 50_000
+"""By how much histories are deeper in simulated time, which may go a hundred times faster, and no deeper than this."""
 
 
 class Direction(Enum):
@@ -39,15 +40,15 @@ def _fixed(depth: int) -> Depth:
     return lambda _: depth
 
 
-def _second_of(samples_per_message: Callable[[Pacing], int]) -> Depth:
-    """Return a depth of one second of messages that come every so many samples."""
-    per_second = BRISK_HZ * SAMPLES_PER_REVOLUTION
-    return lambda pacing: math.ceil(per_second / samples_per_message(pacing))
+def _seconds_of(samples_per_message: Callable[[Pacing], int]) -> Depth:
+    """Return the depth for messages that come every so many samples."""
+    samples = KEPT_S * BRISK_HZ * SAMPLES_PER_REVOLUTION
+    return lambda pacing: math.ceil(samples / samples_per_message(pacing))
 
 
-_BLOCKS = _second_of(lambda pacing: pacing.samples_per_message)
-_SAMPLES = _second_of(lambda pacing: pacing.imu_decimation)
-_REVOLUTIONS = _second_of(lambda _: SAMPLES_PER_REVOLUTION)
+_BLOCKS = _seconds_of(lambda pacing: pacing.samples_per_message)
+_SAMPLES = _seconds_of(lambda pacing: pacing.imu_decimation)
+_REVOLUTIONS = _seconds_of(lambda _: SAMPLES_PER_REVOLUTION)
 
 
 @dataclass(frozen=True)

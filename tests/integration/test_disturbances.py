@@ -6,7 +6,10 @@
 from __future__ import annotations
 
 import signal
+import subprocess
 import sys
+import textwrap
+import time
 from itertools import pairwise
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -27,7 +30,8 @@ if TYPE_CHECKING:
 
 pytest_plugins = ["roller_sim_ros.testing"]
 
-METER = (sys.executable, str(Path(__file__).resolve().parents[2] / "examples" / "meter_client.py"))
+ROOT = Path(__file__).resolve().parents[2]
+METER = (sys.executable, str(ROOT / "examples" / "meter_client.py"))
 
 
 def is_whole(roller: Roller) -> bool:
@@ -96,6 +100,39 @@ def test_reader_that_does_not_read_holds_nobody_up(roller: Roller) -> None:
     finally:
         lazy.destroy_node()
         context.try_shutdown()
+
+
+def test_reader_that_gets_no_processor_for_a_while_gets_every_sample(start, own_domain) -> None:
+    script = """
+        from soak.client import Client
+
+        client = Client(int(input()), lambda: True)
+        for _ in range(4):
+            wanted = client.truth.next_sample + 3000
+            client.spin_until(lambda: client.truth.next_sample > wanted, "samples")
+            print("stop me", flush=True)
+        client.spin_for(4.0)
+        print(client.truth.lost, client.acceleration.lost, flush=True)
+        client.close()
+        """
+    reader = subprocess.Popen(
+        [sys.executable, "-c", textwrap.dedent(script)],
+        cwd=ROOT,
+        stdin=subprocess.PIPE,
+        stdout=subprocess.PIPE,
+        text=True,
+    )
+    assert reader.stdin is not None
+    assert reader.stdout is not None
+    with reader:
+        print(own_domain, file=reader.stdin, flush=True)
+        start("--frequency-hz", "40", "--ros-args", "-p", "exciter.frequency_rate_hz_per_s:=100.0")
+        for _ in range(4):
+            assert reader.stdout.readline() == "stop me\n"
+            reader.send_signal(signal.SIGSTOP)
+            time.sleep(1.5)
+            reader.send_signal(signal.SIGCONT)
+        assert reader.stdout.readline() == "0 0\n"
 
 
 def test_node_that_is_killed_while_it_records_and_started_again(start, client, tmp_path) -> None:

@@ -83,12 +83,12 @@ def test_offered_profiles_mean_what_the_table_says(topic: Topic) -> None:
     assert Qos.from_offered_profiles(qos.offered_profiles()) == qos
 
 
-def test_depth_is_one_second_of_blocks() -> None:
+def test_depth_is_five_seconds_of_blocks() -> None:
     by_name = {topic.name: topic for topic in TOPICS}
-    assert by_name["drum/acceleration"].depth(Pacing(samples_per_message=16)) == 320
-    assert by_name["truth"].depth(Pacing(samples_per_message=128)) == 40
-    assert by_name["drum/imu"].depth(Pacing(imu_decimation=4)) == 1280
-    assert by_name["meter"].depth(Pacing()) == 40
+    assert by_name["drum/acceleration"].depth(Pacing(samples_per_message=16)) == 1600
+    assert by_name["truth"].depth(Pacing(samples_per_message=128)) == 200
+    assert by_name["drum/imu"].depth(Pacing(imu_decimation=4)) == 6400
+    assert by_name["meter"].depth(Pacing()) == 200
 
 
 def test_profiles_of_newer_rosbag2_are_read_by_name() -> None:
