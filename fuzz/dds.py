@@ -30,7 +30,6 @@ from std_srvs.srv import Trigger
 from fuzz import items
 from fuzz.targets import LONGEST_REFUSAL, Target
 from roller_sim_ros.bench.domain import own_domain
-from roller_sim_ros.bench.processes import Process
 from roller_sim_ros.faults.catalogue import FAULTS
 from roller_sim_ros.msg import (
     DrumSoilState,
@@ -40,6 +39,7 @@ from roller_sim_ros.msg import (
     SimulationState,
 )
 from roller_sim_ros.parameters import PARAMETERS
+from roller_sim_ros.processes import Process
 from roller_sim_ros.srv import (
     Advance,
     ClearFaults,

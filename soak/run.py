@@ -16,7 +16,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from roller_sim_ros.bench.domain import own_domain
-from roller_sim_ros.bench.processes import Process
+from roller_sim_ros.processes import Process
 from soak.client import Client, SoakError, Stream
 from soak.memory import Memory, children, resident_mb
 

@@ -12,8 +12,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from roller_sim_ros.bench.processes import Process
 from roller_sim_ros.errors import RollerSimError
+from roller_sim_ros.processes import Process
 
 if TYPE_CHECKING:
     from roller_sim_ros.node.bench_client import BenchClient

@@ -8,7 +8,6 @@ from __future__ import annotations
 import argparse
 import os
 import shlex
-import signal
 import sys
 from contextlib import nullcontext
 from pathlib import Path
@@ -16,6 +15,7 @@ from pathlib import Path
 from roller_sim_ros.commands.numbers import positive
 from roller_sim_ros.commands.parser import command_parser
 from roller_sim_ros.commands.score import add_score_arguments, judge
+from roller_sim_ros.commands.termination import ends_like_ctrl_c
 from roller_sim_ros.errors import RollerSimError
 from roller_sim_ros.parameters import SAMPLES_PER_REVOLUTION
 
@@ -57,19 +57,12 @@ def main(argv: list[str] | None = None) -> int:
         0 when the meter passed, 1 when it failed, 2 when it could not be judged.
     """
     arguments = _parser().parse_args(argv)
-    # As after Ctrl-C, roller and meter are ended too.
-    before = signal.signal(signal.SIGTERM, _interrupt)
     try:
-        return _bench(arguments)
+        with ends_like_ctrl_c():
+            return _bench(arguments)
     except RollerSimError as error:
         print(f"roller-sim bench: error: {error}", file=sys.stderr)
         return 2
-    finally:
-        signal.signal(signal.SIGTERM, before)
-
-
-def _interrupt(*_: object) -> None:
-    raise KeyboardInterrupt
 
 
 def _bench(arguments: argparse.Namespace) -> int:

@@ -6,11 +6,11 @@
 from __future__ import annotations
 
 import argparse
-import signal
 from pathlib import Path
 
 from roller_sim_ros.commands.parser import command_parser
 from roller_sim_ros.commands.progress import add_progress_flag, progress
+from roller_sim_ros.commands.termination import ends_like_ctrl_c
 from roller_sim_ros.errors import RollerSimError
 
 DESCRIPTION = """\
@@ -48,16 +48,8 @@ def main(argv: list[str] | None = None) -> int:
         If the trace cannot be read, or the report not be written or printed.
     """
     arguments = _parser().parse_args(argv)
-    # As after Ctrl-C, the browser is ended too, and nothing half written stays.
-    before = signal.signal(signal.SIGTERM, _interrupt)
-    try:
+    with ends_like_ctrl_c():
         return _report(arguments)
-    finally:
-        signal.signal(signal.SIGTERM, before)
-
-
-def _interrupt(*_: object) -> None:
-    raise KeyboardInterrupt
 
 
 def _report(arguments: argparse.Namespace) -> int:

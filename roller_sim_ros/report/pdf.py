@@ -7,13 +7,11 @@ from __future__ import annotations
 
 import os
 import shutil
-import signal
-import subprocess
 import tempfile
-from contextlib import suppress
 from pathlib import Path
 
 from roller_sim_ros.errors import RollerSimError
+from roller_sim_ros.processes import Process
 from roller_sim_ros.report.files import replaced
 
 NAMES = ("chromium", "chromium-browser", "google-chrome")
@@ -21,8 +19,6 @@ NAMES = ("chromium", "chromium-browser", "google-chrome")
 
 LONGEST_S = 120.0
 """How long printing may take; it takes some seconds."""
-
-GRACE_S = 2.0
 
 ALONE = "--no-sandbox"
 WITHOUT_SANDBOX = "No usable sandbox"
@@ -98,43 +94,19 @@ def write_pdf(page: str, path: Path, browser: str) -> None:
 
 def _run(command: list[str], path: Path, folder: Path, temporary: str) -> str:
     """Run the browser to its end and return what it said; whatever it started has ended then, too."""
-    log = folder / "log"
     # What it would put into the home folder goes with the profile; its socket needs a short path.
     environment = {
         "XDG_CONFIG_HOME": str(folder),
         "XDG_CACHE_HOME": str(folder),
         "TMPDIR": temporary,
     }
-    with log.open("wb") as output:
-        try:
-            process = subprocess.Popen(
-                command,
-                stdin=subprocess.DEVNULL,
-                stdout=output,
-                stderr=subprocess.STDOUT,
-                env={**os.environ, **environment},
-                # A group of its own, to end it with all that it starts.
-                start_new_session=True,
-            )
-        except OSError as error:
-            raise RollerSimError(
-                f"{command[0]} cannot be started: {error.strerror or error}"
-            ) from None
-        try:
-            process.wait(LONGEST_S)
-        except subprocess.TimeoutExpired:
+    process = Process("browser", command, folder / "log", environment)
+    try:
+        if process.wait(LONGEST_S) is None:
             raise RollerSimError(
                 f"{path}: {command[0]} has not printed it within {LONGEST_S:g} s and was ended: try again on a "
                 "machine that is less busy, or print the HTML page from a browser"
-            ) from None
-        finally:
-            _end(process)
-    return log.read_text(encoding="utf-8", errors="replace")
-
-
-def _end(process: subprocess.Popen[bytes]) -> None:
-    for number in (signal.SIGTERM, signal.SIGKILL):
-        with suppress(ProcessLookupError):
-            os.killpg(process.pid, number)
-        with suppress(subprocess.TimeoutExpired):
-            process.wait(GRACE_S)
+            )
+    finally:
+        process.end()
+    return process.log.read_text(encoding="utf-8", errors="replace")

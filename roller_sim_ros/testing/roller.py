@@ -15,9 +15,9 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from roller_sim_ros.bench.domain import own_domain
-from roller_sim_ros.bench.processes import Process
 from roller_sim_ros.errors import RollerSimError
 from roller_sim_ros.parameters import Value
+from roller_sim_ros.processes import Process
 
 if TYPE_CHECKING:
     from roller_sim_ros.node.stepping_client import SteppingClient

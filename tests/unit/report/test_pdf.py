@@ -11,6 +11,7 @@ from pathlib import Path
 
 import pytest
 
+from roller_sim_ros import processes
 from roller_sim_ros.errors import RollerSimError
 from roller_sim_ros.report import pdf
 from roller_sim_ros.report.files import write
@@ -69,7 +70,7 @@ def test_a_browser_that_hangs_is_ended_with_what_it_started(
     target: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(pdf, "LONGEST_S", 1.0)
-    monkeypatch.setattr(pdf, "GRACE_S", 0.2)
+    monkeypatch.setattr(processes, "GRACE_S", 0.2)
     script = f"trap '' TERM\nsleep 600 &\necho $! >{tmp_path}/child\necho $$ >{tmp_path}/own\nwait\nsleep 600\n"
     error = refused(target, browser(tmp_path, script))
     assert "not printed it within 1 s" in error

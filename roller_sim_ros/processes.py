@@ -1,7 +1,7 @@
 # Copyright 2026 The roller_sim_ros developers
 # SPDX-License-Identifier: Apache-2.0
 
-"""Processes that a bench starts, and ends with all that they started themselves."""
+"""Processes that are started for something, and ended with all that they started themselves."""
 
 from __future__ import annotations
 

@@ -12,8 +12,8 @@ from pathlib import Path
 import pytest
 
 from roller_sim_ros.bench.domain import own_domain
-from roller_sim_ros.bench.processes import Process
 from roller_sim_ros.errors import RollerSimError
+from roller_sim_ros.processes import Process
 
 PATIENCE_S = 30.0
 
