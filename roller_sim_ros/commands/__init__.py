@@ -37,7 +37,7 @@ COMMANDS = {
 
 # Modules that only a ROS 2 installation has, and those that are generated there; a missing one is the user's set-up,
 # not a defect.
-_ROS_MODULES = (
+ROS_MODULES = (
     "builtin_interfaces",
     "diagnostic_msgs",
     "geometry_msgs",
@@ -97,7 +97,7 @@ def _call(command: str, arguments: list[str]) -> int:
         return _fail(command, str(error))
     except ModuleNotFoundError as error:
         missing = error.name or ""
-        if not any(missing == name or missing.startswith(f"{name}.") for name in _ROS_MODULES):
+        if not any(missing == name or missing.startswith(f"{name}.") for name in ROS_MODULES):
             raise
         return _fail(
             command,

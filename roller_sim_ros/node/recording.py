@@ -128,7 +128,7 @@ class Recording:
         )
         names = [name.strip() for name in self.parameters.topics.split(",") if name.strip()]
         self._asked = dict.fromkeys(node.resolve_topic_name(name) for name in names)
-        self._register(outlet)
+        self.register_topics(outlet)
         for name, topic in commands.items():
             register(self.trace, name, topic.type_name, topic.qos(configuration.pacing))
         events = topics.PARAMETER_EVENTS
@@ -138,9 +138,16 @@ class Recording:
         self.awaited = [name for name in self._asked if name not in own]
         self.look_for_topics()
 
+    def register_topics(self, outlet: Outlet) -> None:
+        """Announce the topics of an outlet that is to be attached."""
+        for topic in topics.TOPICS:
+            publisher = outlet.publishers.get(topic.name)
+            if publisher is not None:
+                qos = row(publisher.qos_profile)
+                register(self.trace, publisher.topic_name, topic.type_name, qos)
+
     def attach(self, outlet: Outlet) -> None:
-        """Let an outlet hand its bytes over from now on."""
-        self._register(outlet)
+        """Let an outlet, whose topics are registered, hand its bytes over from now on; takes no time."""
         outlet.imu_recorded = outlet.publishers[topics.IMU.name].topic_name in self._asked
         outlet.trace = self.trace
 
@@ -177,13 +184,6 @@ class Recording:
             self._node.destroy_subscription(subscription)
         self._subscriptions.clear()
         self.trace.close(timeout_s)
-
-    def _register(self, outlet: Outlet) -> None:
-        for topic in topics.TOPICS:
-            publisher = outlet.publishers.get(topic.name)
-            if publisher is not None:
-                qos = row(publisher.qos_profile)
-                register(self.trace, publisher.topic_name, topic.type_name, qos)
 
     def _record(self, name: str, type_name: str, qos: Qos) -> None:
         message_class = message_type(type_name)

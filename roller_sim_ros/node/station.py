@@ -232,6 +232,7 @@ class Station:
         assert self.outlet is not None  # the caller opened it
         wanted = beginning.configuration.recording
         if self._recording is not None and self._recording.parameters == wanted:
+            self._recording.register_topics(self.outlet)
             self._recording.attach(self.outlet)
             return
         self.close_recording()

@@ -170,15 +170,12 @@ class SteppingClient:
             end_ns = self._next_ns + round(seconds * 1e9)
             while end_ns - self._next_ns > self._longest_ns:
                 self._step_by(self._to_revolution)
-            self._advance(seconds=(end_ns - self._next_ns) * 1e-9)
-        elif revolutions:
-            for _ in range(revolutions):
-                self._advance(revolutions=1)
-        else:
-            while samples > 0:
-                steps = min(samples, self._to_revolution)
-                self._step_by(steps)
-                samples -= steps
+            response = self._call("advance", seconds=(end_ns - self._next_ns) * 1e-9)
+            self._checked(response)
+            self._take_until(int(response.next_sample))
+        last = self._next_sample + revolutions * SAMPLES_PER_REVOLUTION + samples
+        while self._next_sample < last:
+            self._step_by(min(last - self._next_sample, self._to_revolution))
         return self._next_sample
 
     @property
@@ -188,11 +185,6 @@ class SteppingClient:
     def _step_by(self, samples: int) -> None:
         self._checked(self._call("step_simulation", steps=samples))
         self._take_until(self._next_sample + samples)
-
-    def _advance(self, **by: float) -> None:
-        response = self._call("advance", **by)
-        self._checked(response)
-        self._take_until(int(response.next_sample))
 
     def _take_until(self, next_sample: int) -> None:
         """Take all that was published before a sample."""

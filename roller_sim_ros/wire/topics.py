@@ -15,13 +15,11 @@ from roller_sim_ros.parameters import SAMPLES_PER_REVOLUTION, Pacing
 from roller_sim_ros.wire.qos import Qos
 
 BRISK_HZ = 40.0
-"""Excitation frequency by which depths are reckoned; rollers vibrate at 25 to 40 Hz."""
-KEPT_S = 5.0
-"""What the histories of blocks, samples and revolutions keep: the middleware sends again what a reader has missed only
-every 3 s, if it still has it then."""
+"""Excitation frequency by which depths of "one second" are reckoned; rollers vibrate at 25 to 40 Hz."""
 
-SIMULATED_TIMES, DEEPEST = 20, 50_000
-"""By how much histories are deeper in simulated time, which may go a hundred times faster, and no deeper than this."""
+REAL_TIMES, SIMULATED_TIMES, DEEPEST = 5, 100, 50_000
+"""By how much histories are deeper than one second, in real time and in simulated time, which may go faster, and no
+deeper than this: the middleware sends again what a reader has missed only every 3 s, if it still has it then."""
 
 
 class Direction(Enum):
@@ -40,15 +38,15 @@ def _fixed(depth: int) -> Depth:
     return lambda _: depth
 
 
-def _seconds_of(samples_per_message: Callable[[Pacing], int]) -> Depth:
-    """Return the depth for messages that come every so many samples."""
-    samples = KEPT_S * BRISK_HZ * SAMPLES_PER_REVOLUTION
-    return lambda pacing: math.ceil(samples / samples_per_message(pacing))
+def _second_of(samples_per_message: Callable[[Pacing], int]) -> Depth:
+    """Return the number of messages in one second that come every so many samples."""
+    per_second = BRISK_HZ * SAMPLES_PER_REVOLUTION
+    return lambda pacing: math.ceil(per_second / samples_per_message(pacing))
 
 
-_BLOCKS = _seconds_of(lambda pacing: pacing.samples_per_message)
-_SAMPLES = _seconds_of(lambda pacing: pacing.imu_decimation)
-_REVOLUTIONS = _seconds_of(lambda _: SAMPLES_PER_REVOLUTION)
+_BLOCKS = _second_of(lambda pacing: pacing.samples_per_message)
+_SAMPLES = _second_of(lambda pacing: pacing.imu_decimation)
+_REVOLUTIONS = _second_of(lambda _: SAMPLES_PER_REVOLUTION)
 
 
 @dataclass(frozen=True)
@@ -66,7 +64,7 @@ class Topic:
     doc : str
         What it says, with units, for the README's table.
     depth : callable
-        Depth of the history from the pacing.
+        Messages of about one second from the pacing, by which the depth of the history is reckoned.
     rate : str
         How often it comes, for the README's table.
     durability : str
@@ -85,11 +83,12 @@ class Topic:
     of_simulated_time: bool = False
 
     def qos(self, pacing: Pacing) -> Qos:
-        """Return the quality of service at a pacing; in simulated time histories are deeper."""
+        """Return the quality of service at a pacing."""
         depth = self.depth(pacing)
         # Of a state only the last word counts, and of the clock, which is best effort to its readers.
-        if pacing.simulated_time and not self.of_simulated_time and depth > 1:
-            depth = min(SIMULATED_TIMES * depth, DEEPEST)
+        if not self.of_simulated_time and depth > 1:
+            times = SIMULATED_TIMES if pacing.simulated_time else REAL_TIMES
+            depth = min(times * depth, DEEPEST)
         return Qos("reliable", self.durability, depth)
 
     def resolved(self, namespace: str = "/") -> str:

@@ -29,22 +29,7 @@ MESSAGES = sorted(path.stem for path in (ROOT / "msg").glob("*.msg"))
 SERVICES = sorted(path.stem for path in (ROOT / "srv").glob("*.srv"))
 
 # Of ROS, only these may be imported, and only by the modules named below.
-ROS_PACKAGES = (
-    "ament_index_python",
-    "builtin_interfaces",
-    "diagnostic_msgs",
-    "geometry_msgs",
-    "lifecycle_msgs",
-    "rcl_interfaces",
-    "rclpy",
-    "roller_sim_ros.msg",
-    "roller_sim_ros.srv",
-    "rosgraph_msgs",
-    "rosidl_runtime_py",
-    "sensor_msgs",
-    "std_msgs",
-    "std_srvs",
-)
+ROS_PACKAGES = ("ament_index_python", *commands.ROS_MODULES)
 ROS_COMMANDS = ("sim", "play")
 ROS_CLIENT = "roller_sim_ros.panel.client"
 

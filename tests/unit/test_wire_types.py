@@ -85,10 +85,13 @@ def test_offered_profiles_mean_what_the_table_says(topic: Topic) -> None:
 
 def test_depth_is_five_seconds_of_blocks() -> None:
     by_name = {topic.name: topic for topic in TOPICS}
-    assert by_name["drum/acceleration"].depth(Pacing(samples_per_message=16)) == 1600
-    assert by_name["truth"].depth(Pacing(samples_per_message=128)) == 200
-    assert by_name["drum/imu"].depth(Pacing(imu_decimation=4)) == 6400
-    assert by_name["meter"].depth(Pacing()) == 200
+    assert by_name["drum/acceleration"].qos(Pacing(samples_per_message=16)).depth == 1600
+    assert by_name["truth"].qos(Pacing(samples_per_message=128)).depth == 200
+    assert by_name["drum/imu"].qos(Pacing(imu_decimation=4)).depth == 6400
+    assert by_name["meter"].qos(Pacing()).depth == 200
+    assert by_name["exciter/state"].qos(Pacing()).depth == 50
+    assert by_name["exciter/state"].qos(Pacing(lock_step=True)).depth == 1000
+    assert by_name["soil"].qos(Pacing()).depth == 1
 
 
 def test_profiles_of_newer_rosbag2_are_read_by_name() -> None:

@@ -51,7 +51,7 @@ def test_rosbags_reads_the_same(record) -> None:
             (qos,) = connection.ext.offered_qos_profiles
             assert qos.reliability is QosReliability.RELIABLE
             assert qos.durability is QosDurability[topic.durability.upper()]
-            assert qos.depth == topic.depth(Pacing())
+            assert qos.depth == topic.qos(Pacing()).depth
             message = next(i for i in recording.written if i.topic == connection.topic)
             again = encode(reader.deserialize(message.data, connection.msgtype), topic.type_name)
             assert again == message.data
