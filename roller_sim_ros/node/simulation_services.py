@@ -5,7 +5,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -18,6 +17,7 @@ from roller_sim_ros.errors import RollerSimError
 from roller_sim_ros.msg import Result, SimulationState, SimulatorFeatures
 from roller_sim_ros.node.roller import Roller
 from roller_sim_ros.node.run import Run
+from roller_sim_ros.node.step_length import check_advance, check_samples
 from roller_sim_ros.parameters import SAMPLES_PER_REVOLUTION
 from roller_sim_ros.parameters.quantity import shown
 from roller_sim_ros.srv import (
@@ -30,11 +30,6 @@ from roller_sim_ros.srv import (
     SetSimulationState,
     StepSimulation,
 )
-
-MOST_S = 3600.0
-"""Simulated time of one request at most: nobody else is heard meanwhile."""
-MOST_HZ = 80.0
-"""Greatest excitation frequency, by which steps are reckoned as time."""
 
 STOPPED, PLAYING, PAUSED, QUITTING = (
     SimulationState.STATE_STOPPED,
@@ -104,33 +99,13 @@ class SimulationServices:
 
     def _step(self, request: Any, _response: Any) -> None:
         run = self._paused(Result.RESULT_OPERATION_FAILED)
-        most = int(MOST_S * MOST_HZ * SAMPLES_PER_REVOLUTION)
-        if not 1 <= request.steps <= most:
-            raise Refused(
-                Result.RESULT_OPERATION_FAILED,
-                f"steps {request.steps}: must be 1 … {most} samples at a time",
-            )
+        check_samples(request.steps)
         self._drive(run, lambda: run.step(request.steps, self._going_on(run)))
 
     def _advance(self, request: Any, response: Any) -> None:
         run = self._paused(Result.RESULT_INCORRECT_STATE)
         revolutions, seconds = request.revolutions, request.seconds
-        most = int(MOST_S * MOST_HZ)
-        if not math.isfinite(seconds) or not 0.0 <= seconds <= MOST_S:
-            raise Refused(
-                Result.RESULT_OPERATION_FAILED,
-                f"seconds {seconds}: must be 0 … {MOST_S:g} s at a time",
-            )
-        if (revolutions > 0) == (seconds > 0.0):
-            raise Refused(
-                Result.RESULT_OPERATION_FAILED,
-                f"revolutions {revolutions}, seconds {seconds:g}: one of them must be 0, the other not",
-            )
-        if revolutions > most:
-            raise Refused(
-                Result.RESULT_OPERATION_FAILED,
-                f"revolutions {revolutions}: must be at most {most} at a time",
-            )
+        check_advance(revolutions, seconds)
         going_on = self._going_on(run)
         try:
             if revolutions:

@@ -25,6 +25,7 @@ from roller_sim_ros.errors import RollerSimError
 from roller_sim_ros.msg import ExciterCommand, Result
 from roller_sim_ros.node.interfaces import message_type
 from roller_sim_ros.node.qos import profile
+from roller_sim_ros.node.step_length import check_advance, check_samples
 from roller_sim_ros.parameters import SAMPLES_PER_REVOLUTION, Pacing, Value
 from roller_sim_ros.srv import (
     Advance,
@@ -166,6 +167,10 @@ class SteppingClient:
         It goes by a revolution at a time: shared memory takes 512 messages that a process has not fetched yet, and what
         comes on top of them is sent again seconds later, when the step may be long over.
         """
+        if samples:
+            check_samples(samples)
+        else:
+            check_advance(revolutions, seconds)
         if seconds:
             end_ns = self._next_ns + round(seconds * 1e9)
             while end_ns - self._next_ns > self._longest_ns:

@@ -77,6 +77,8 @@ def refusals(roller: Roller) -> None:
         RollerSimError, match=r"step\(revolutions=0, seconds=inf, samples=0\): give"
     ):
         roller.step(seconds=float("inf"))
+    with pytest.raises(RollerSimError, match="revolutions 999999: must be at most"):
+        roller.step(revolutions=999_999)
     with pytest.raises(RollerSimError, match="soil.density_kg_m3 = 1.0: must be at least"):
         roller.set_parameters(soil__density_kg_m3=1.0)
     with pytest.raises(RollerSimError, match="there is no fault 'spikes'; did you mean spike"):
