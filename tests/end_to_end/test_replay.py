@@ -322,7 +322,7 @@ def test_a_gap_of_all_topics_is_gone_over(trace: Path, tmp_path: Path) -> None:
     assert found.runs[0].lost > 150
 
 
-@pytest.mark.parametrize("share", [0.3, 0.77])
+@pytest.mark.parametrize("share", [0.4, 0.77])
 def test_a_trace_that_was_cut_off_is_identical_as_far_as_it_goes(
     share: float, trace: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
